@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import random
 import signal
@@ -12,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from tmm_gen.errors import UserError
 from tmm_gen.files import write_whole
 from tmm_gen.scratch import new_file, scratch_folder, scratch_name, sweep
 
@@ -34,6 +36,18 @@ def test_scratch_of_the_living_stays_and_of_the_dead_goes(tmp_path: Path) -> Non
     sweep(tmp_path)
     assert not (tmp_path / dead).exists()
     assert len(list(tmp_path.iterdir())) == 2
+
+
+@pytest.mark.parametrize("elsewhere", [False, True])
+def test_a_full_disk_is_named_with_what_helps(tmp_path: Path, *, elsewhere: bool) -> None:
+    full = OSError(errno.ENOSPC, "No space left on device", *(["/a/b"] if elsewhere else []))
+    with pytest.raises(OSError if elsewhere else UserError) as caught, scratch_folder(tmp_path):
+        raise full
+    if not elsewhere:
+        assert str(caught.value).startswith(
+            f"{tmp_path}: No space left on device, and scratch is written there."
+        )
+    assert not list(tmp_path.iterdir())
 
 
 def test_writing_removes_what_killed_runs_left(tmp_path: Path) -> None:

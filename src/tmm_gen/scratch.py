@@ -6,6 +6,7 @@ writes in the same folder.
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 import platform
@@ -20,9 +21,12 @@ from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 
+from tmm_gen.errors import UserError
+
 __all__ = ["new_file", "scratch_folder", "scratch_name", "sweep"]
 
 _PATTERN = re.compile(r"\.tmm-gen-(?P<host>[0-9a-f]{8})-(?P<process>\d{1,10})-[0-9a-f]{16}\.tmp")
+_FULL = (errno.ENOSPC, errno.EFBIG, errno.EDQUOT)
 _FOREIGN_AGE = 86400.0
 """s; after this what another machine left in a shared folder is taken for left behind."""
 
@@ -65,12 +69,28 @@ def scratch_folder(parent: Path | None = None) -> Iterator[Path]:
     ------
     Path
         The folder, empty.
+
+    Raises
+    ------
+    UserError
+        If there is no room for it, or for what is written there.
     """
-    folder = new_folder(parent)
+    place, option = (Path(tempfile.gettempdir()), "TMPDIR") if parent is None else (parent, "XDG_CACHE_HOME")
+    folder: Path | None = None
     try:
+        folder = new_folder(place)
         yield folder
+    except OSError as error:
+        # without a name where a file was open already: nothing else is written here
+        if error.errno not in _FULL or not str(error.filename or place).startswith(str(place)):
+            raise
+        raise UserError(
+            f"{place}: {error.strerror}, and scratch is written there. Make room, or name another folder by the "
+            f"environment variable {option}."
+        ) from error
     finally:
-        shutil.rmtree(folder, ignore_errors=True)
+        if folder is not None:
+            shutil.rmtree(folder, ignore_errors=True)
 
 
 def new_folder(parent: Path | None = None) -> Path:
