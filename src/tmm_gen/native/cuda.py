@@ -84,7 +84,8 @@ def cuda_source(program: Program, scene: Scene) -> str:
             'Write parameters = "free", and leave compensated out.'
         )
     name = program.name
-    texts = emit_kernel(program, scene)
+    # threads are lanes already
+    texts = emit_kernel(program, scene.replace(**{"emit.favour": "size"}) if program.vectors else scene)
     structs = {struct.name: struct for struct in structs_of(program)}
     numbers = {which: sum(field.numbers for field in struct.fields) for which, struct in structs.items()}
     kernel = render(

@@ -9,6 +9,7 @@ from functools import lru_cache
 
 import sympy as sp
 
+from tmm_gen.program.parts import Part, Vector
 from tmm_gen.program.statements import Loop, Routine, Statement
 
 
@@ -53,7 +54,7 @@ class Operations:
 
 @lru_cache(maxsize=1 << 16)  # every backend asks again for its header
 def count_expression(e: sp.Expr) -> Operations:
-    """Count the operations of one expression as printed."""
+    """Count the operations of one expression as printed, one of vectors as one."""
     e = sp.sympify(e)
     if e.is_Atom:
         return Operations()
@@ -63,6 +64,8 @@ def count_expression(e: sp.Expr) -> Operations:
         return _count_product(e)
     if e.is_Pow:
         return _count_power(e)
+    if isinstance(e, Part | Vector):
+        return Operations()
     return sum((count_expression(a) for a in e.args), Operations(functions=1))
 
 

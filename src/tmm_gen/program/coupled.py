@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -69,6 +69,11 @@ class Coupled:
     scheme: Scheme
     step: Ref
 
+    @property
+    def spare(self) -> bool:
+        """Whether what is at the stages has the middle of the step with it."""
+        return False
+
     @cached_property
     def spectrum(self) -> Spectrum:
         """Numbers of the scheme."""
@@ -112,13 +117,30 @@ class Coupled:
             found.append((re, im))
         return found
 
+    def left_over(self, lacking: Variable, torque: Variable) -> list[Assign]:
+        """Put together for each system what torques lack at the stages.
+
+        Parameters
+        ----------
+        lacking, torque : Variable
+            Arrays of what lacks, and of what systems are to make up for.
+        """
+        at_stages = [lane.ref(lacking.at())[0] for lane in self.stages]
+        found: list[Assign] = []
+        for lane, pair in zip(self.systems, self.combined(at_stages), strict=True):
+            parts = zip(lane.ref(torque.at()), pair, strict=True)
+            found += [Assign(ref, value) for ref, value in parts if isinstance(ref, Ref)]
+        return found
+
+    def at_stages(self, value: Callable[[int], sp.Expr]) -> list[sp.Expr]:
+        """Return what has a value at each stage, from 0, one for each of :attr:`stages`."""
+        return [value(instant) for instant in range(len(self.spectrum.nodes))]
+
     def inputs_at_stages(
         self, inputs: Sequence[Variable], stand: Mapping[str, Ref]
     ) -> dict[Ref, Sequence[Pair]]:
         """Return what inputs are at each stage, by what stands for them."""
-        return {
-            stand[given.name]: [(given.entry(i), ZERO) for i in range(len(self.stages))] for given in inputs
-        }
+        return {stand[given.name]: [(v, ZERO) for v in self.at_stages(given.entry)] for given in inputs}
 
     def from_systems(self, weights: Sequence[sp.Expr], found: Ref) -> sp.Expr:
         """Return a weighted sum of the stages by what each system has found.
@@ -142,15 +164,18 @@ class Coupled:
 
     # -- motion at a place, by accelerations at the stages -------------------------------------------------------
 
-    def trials(self, place: Place) -> list[Ref]:
+    def trials(self, place: Place) -> list[sp.Expr]:
         """Return the accelerations at the stages as known so far."""
+        return list(self._trials(place))
+
+    def _trials(self, place: Place) -> list[Ref]:
         return [lane.ref(place.trial)[0] for lane in self.stages]
 
     def ahead(self, place: Place) -> list[Assign]:
         """Begin on the polynomial of the last step."""
         kept = [v.at() for v in place.stages]
         rows = self.spectrum.ahead
-        return [Assign(trial, _weighed(rows.row(i), kept)) for i, trial in enumerate(self.trials(place))]
+        return [Assign(trial, _weighed(rows.row(i), kept)) for i, trial in enumerate(self._trials(place))]
 
     def moved(
         self, place: Place, kind: Kind, at_stages: Sequence[Ref], at_middle: Ref | None = None
@@ -184,7 +209,7 @@ class Coupled:
         size = len(self.stages)
         return [
             Assign(trial, trial + self.from_systems(sp.eye(size).row(i), place.solved))
-            for i, trial in enumerate(self.trials(place))
+            for i, trial in enumerate(self._trials(place))
         ]
 
     def finished(self, place: Place) -> list[Assign]:

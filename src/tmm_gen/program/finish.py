@@ -121,6 +121,8 @@ def prepared(program: Program, factors: Factors) -> Program:
     later = (*program.steps, program.output)
     if derivatives is not None:
         later += (derivatives.linearise, derivatives.tangent)
+    if program.vectors is not None:
+        later += (program.vectors.step,)
     used = frozenset().union(*(routine.read() for routine in later))
     prepare = prune(replace(program.prepare, sections=factors.sections), used)
     read = prepare.read() | used | program.initialise.read()

@@ -199,6 +199,22 @@ class Sensitivities:
 
 
 @dataclass(frozen=True)
+class Vectors:
+    """A step whose stages are solved at once, with vectors of stages and of systems: the same motion to rounding.
+
+    Parameters
+    ----------
+    step : Routine
+        In place of the main one.
+    parts : int
+        Of each vector.
+    """
+
+    step: Routine
+    parts: int
+
+
+@dataclass(frozen=True)
 class Program:
     """A whole kernel.
 
@@ -225,6 +241,8 @@ class Program:
         For headers: integrator, sweep, unknown and so on, in reading order.
     sensitivities : Sensitivities, optional
         Where the scene asks for them.
+    vectors : Vectors, optional
+        The step in vectors, for backends that have them, where it is asked for.
     """
 
     name: str
@@ -245,6 +263,7 @@ class Program:
     stage_instants: tuple[tuple[float, ...], ...]
     facts: dict[str, str] = field(default_factory=dict, hash=False)
     sensitivities: Sensitivities | None = None
+    vectors: Vectors | None = None
 
     @property
     def steps(self) -> tuple[Routine, ...]:
@@ -257,6 +276,8 @@ class Program:
         routines = [*self.steps, self.output]
         if self.sensitivities is not None:
             routines += [self.sensitivities.linearise, self.sensitivities.tangent]
+        if self.vectors is not None:
+            routines.append(self.vectors.step)
         later = set().union(*(routine.read() for routine in routines))
         kept = tuple(v for v in (self.step, *self.parameters) if v in later)
         return (*kept, *(c for c in self.coefficients if c in later))

@@ -45,6 +45,15 @@ class Role(Enum):
         return self in (Role.STEP, Role.PARAMETER, Role.COEFFICIENT)
 
 
+class Spread(Enum):
+    """What the parts of a value that is a vector are of, where stages are solved at once."""
+
+    STAGES = "stages"
+    """One part a stage: operations are those of each by itself."""
+    SYSTEMS = "systems"
+    """Two parts a system of an eigenvalue, real and imaginary: products are those of complex numbers."""
+
+
 @dataclass(frozen=True)
 class Variable:
     """A named quantity.
@@ -63,6 +72,8 @@ class Variable:
         SI unit, "1" when dimensionless.
     default : float, tuple of float or None
         The scene's value, for parameters and the step.
+    spread : Spread or None
+        What each element has parts of, where it is a vector.
     """
 
     name: str
@@ -71,6 +82,7 @@ class Variable:
     doc: str = ""
     unit: str = "1"
     default: float | tuple[float, ...] | None = None
+    spread: Spread | None = None
 
     def __eq__(self, other: object) -> bool:
         """Compare all there is; what is most often compared is itself, or has another name."""
@@ -82,7 +94,7 @@ class Variable:
 
     @property
     def _rest(self) -> tuple[object, ...]:
-        return self.role, self.length, self.doc, self.unit, self.default
+        return self.role, self.length, self.doc, self.unit, self.default, self.spread
 
     def __hash__(self) -> int:
         """Hash by name, whose hash is known: long defaults would cost more than collisions."""
@@ -139,7 +151,7 @@ class Ref(sp.Symbol):  # type: ignore[misc]  # SymPy has no types
         held = hash(default) if isinstance(default, tuple) else default
         symbol._content = (
             name,
-            f"{variable.role.value} {variable.length} {held} {variable.doc} {variable.unit}",
+            f"{variable.role.value} {variable.length} {held} {variable.doc} {variable.unit} {variable.spread}",
         )
         _REFS[variable, offset, entry] = symbol
         return symbol

@@ -25,7 +25,7 @@ from tmm_gen.emit.c.scalars import place_scalars
 from tmm_gen.emit.c.structs import described, dimension
 from tmm_gen.emit.c.words import sentence
 from tmm_gen.emit.expressions import element
-from tmm_gen.program.statements import Assign, Loop, Mark, Order, Program, Repeat, Require, Routine
+from tmm_gen.program.statements import Assign, Loop, Mark, Order, Program, Repeat, Require, Routine, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
 SOURCES: dict[str, dict[Role, str]] = {
@@ -163,13 +163,12 @@ class Body:
             if self.own_circle:
                 for angle, name in turns.new_in(inner.value):
                     refused = self.kind != "output" and angle not in checked
-                    yield from self._leaving.turned(
-                        printer.text(angle), name, depth, refused=refused, told=self.kind != "output"
-                    )
+                    yield from self._turned(angle, printer, name, depth, refused=refused)
                 printer.turns = dict(turns.known)
             if isinstance(inner, Require):
-                yield from self._leaving.required(inner, printer.text(inner.value), depth)
+                yield from self._required(inner, printer, depth)
                 return
+            yield from self._ahead(inner, depth)
             constant = placement.constant.get(next(positions))
             variable = inner.target.variable
             kind = self._type(variable)
@@ -193,6 +192,7 @@ class Body:
                     straight = Turns(names)
                     depth = 2 if isinstance(top, Repeat) else 1
                 elif isinstance(top, Loop):
+                    yield from self._ahead(top, depth)
                     checked = self._checked_ahead(top)
                     if checked:
                         yield f"{INDENT * depth}{self._loop_head(top)} {{"
@@ -214,6 +214,21 @@ class Body:
                     yield f"{INDENT * depth}}}"
                 else:
                     yield from simple(top, depth, straight)
+
+    def _ahead(self, statement: Statement, depth: int) -> Iterator[str]:
+        """Yield what stands before a statement, also one inside a loop."""
+        yield from ()
+
+    def _turned(
+        self, angle: sp.Expr, printer: CPrinter, name: str, depth: int, *, refused: bool
+    ) -> Iterator[str]:
+        """Yield sine and cosine of an angle, and whether it is in range."""
+        told = self.kind != "output"
+        yield from self._leaving.turned(printer.text(angle), name, depth, refused=refused, told=told)
+
+    def _required(self, required: Require, printer: CPrinter, depth: int) -> Iterator[str]:
+        """Yield the check of a pivot."""
+        yield from self._leaving.required(required, printer.text(required.value), depth)
 
     def _stored(self, assign: Assign, printer: CPrinter) -> str:
         """Return what an assignment sets its target to."""

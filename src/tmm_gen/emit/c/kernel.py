@@ -20,10 +20,12 @@ from tmm_gen.emit.c.members import member_lines
 from tmm_gen.emit.c.pair import functions_in, pair_literal
 from tmm_gen.emit.c.pair_outputs import rounded_last
 from tmm_gen.emit.c.structs import Struct, described, dimension, structs_of
+from tmm_gen.emit.c.vector_body import VectorBody
+from tmm_gen.emit.c.vector_type import VectorType
 from tmm_gen.emit.c.words import head, instants, out_of_range, statuses
 from tmm_gen.emit.header import header_lines
 from tmm_gen.emit.runs import Run
-from tmm_gen.program.statements import Program, Routine
+from tmm_gen.program.statements import Program, Routine, Vectors
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
 
@@ -64,11 +66,20 @@ class Kernel:
             structs = {name: struct for name, struct in structs.items() if name not in ("params", "model")}
         sizes = ", ".join(f"{name} {struct.size(real)}" for name, struct in structs.items())
         number = f"sums of two of type {real.c}" if real.pair else real.c
-        lowered = lower(program, apart=scene.emit.favour == "speed")
-        counted = program
-        if scene.emit.favour == "speed":  # there, a few operations more make chains shorter
+        apart = scene.emit.favour == "speed" and scene.spatial is None
+        lowered = lower(program, apart=apart)
+        counted, facts = program, []
+        if apart:  # there, a few operations more make chains shorter
             counted = replace(program, startup=lowered.startup, main=lowered.main)
-        lines = (*header_lines(counted, scene), f"number type: {number}", f"bytes of the structs: {sizes}")
+        if (vectors := _vectors_of(lowered, scene)) is not None:
+            counted = replace(program, main=vectors.step)
+            facts = [f"vectors: of {vectors.parts} numbers; what does all of one is one operation"]
+        lines = (
+            *header_lines(counted, scene),
+            *facts,
+            f"number type: {number}",
+            f"bytes of the structs: {sizes}",
+        )
         if real.pair:
             lowered = replace(lowered, output=rounded_last(lowered.output))
         return cls(program, lowered, real, lines, structs, scene)
@@ -90,6 +101,12 @@ class Kernel:
     def fast(self) -> bool:
         """Whether the kernel is to be fast on processors with vectors, rather than small."""
         return self.scene.emit.favour == "speed"
+
+    @property
+    def vectors(self) -> VectorType | None:
+        """The type of vectors, where the step is in vectors."""
+        found = _vectors_of(self.program, self.scene)
+        return None if found is None else VectorType(self.real, found.parts)
 
     @property
     def functions(self) -> tuple[str, ...]:
@@ -209,7 +226,8 @@ class Kernel:
         of = self.program.main.name if kind == "linearise" else routine.name
         fence = self.fences.get(of, Fence())
         judged = kind in ("initialise", "step", "linearise")
-        return Body(
+        in_vectors = self.vectors is not None and kind == "step"
+        return (VectorBody if in_vectors else Body)(
             self.program,
             routine,
             kind,
@@ -218,7 +236,7 @@ class Kernel:
             fence,
             self.bound,
             judged,
-            self.fast,
+            self.fast and self.scene.spatial is None,
         )
 
     @cached_property
@@ -239,7 +257,8 @@ class Kernel:
     @cached_property
     def main(self) -> Body:
         """The body of the step."""
-        return self.body(self.program.main, "step")
+        found = _vectors_of(self.program, self.scene)
+        return self.body(self.program.main if found is None else found.step, "step")
 
     @cached_property
     def startup(self) -> list[Body]:
@@ -320,3 +339,8 @@ class Kernel:
 
     def _argument(self, variable: Variable) -> str:
         return variable.name if variable is self.program.step else f"params->{variable.name}"
+
+
+def _vectors_of(program: Program, scene: Scene) -> Vectors | None:
+    """Return the step in vectors, where the kernel takes it: of several arms at once, each has the bits of its own."""
+    return program.vectors if scene.emit.favour == "speed" and scene.emit.batch is None else None

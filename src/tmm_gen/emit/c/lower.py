@@ -24,6 +24,7 @@ from tmm_gen.program.statements import (
     Section,
     Sensitivities,
     Statement,
+    Vectors,
 )
 from tmm_gen.program.variables import Variable
 
@@ -52,6 +53,7 @@ def lower(program: Program, *, apart: bool = False) -> Program:
         main=_step(program.main, apart),
         output=_lowered(program.output),
         sensitivities=_lowered_sensitivities(program.sensitivities),
+        vectors=_lowered_vectors(program.vectors),
     )
 
 
@@ -59,6 +61,10 @@ def _lowered_sensitivities(found: Sensitivities | None) -> Sensitivities | None:
     if found is None:
         return None
     return replace(found, linearise=interleave(_lowered(found.linearise)), tangent=_lowered(found.tangent))
+
+
+def _lowered_vectors(found: Vectors | None) -> Vectors | None:
+    return None if found is None else replace(found, step=_step(found.step, apart=False))
 
 
 def _step(routine: Routine, apart: bool) -> Routine:

@@ -15,7 +15,7 @@ import sympy as sp
 
 from tmm_gen.program.motion import in_order
 from tmm_gen.program.statements import Assign, Loop, Mark, Require, Section, Statement
-from tmm_gen.program.variables import Ref, Variable, local, refs_in
+from tmm_gen.program.variables import Ref, Spread, Variable, local, refs_in
 
 Pair = tuple[sp.Expr, sp.Expr]
 """Real and imaginary part."""
@@ -34,14 +34,23 @@ class Lane:
         What descriptions end with.
     phase : tuple of 2 sympy.Expr, optional
         Where values are complex: a pivot over this number has a positive real part where the arm is passive.
+    spread : Spread, optional
+        Where this one lane stands for several: what its values are vectors of.
+    facing : sympy.Expr
+        Of vectors of systems: what pivots are multiplied by, so that their real parts are positive.
     """
 
     suffix: str
     words: str
     phase: Pair | None = None
+    spread: Spread | None = None
+    facing: sp.Expr = sp.S.One
 
     def of(self, variable: Variable, *, imaginary: bool = False) -> Variable:
         """Return the variable of this lane, of a complex one either part."""
+        if self.spread is not None:
+            doc = f"{variable.doc}, {self.words}".lstrip(", ")
+            return replace(variable, name=f"{variable.name}{self.suffix}", doc=doc, spread=self.spread)
         part = "" if self.phase is None else "_im" if imaginary else "_re"
         words = "" if self.phase is None else ", imaginary part" if imaginary else ", real part"
         doc = f"{variable.doc}, {self.words}{words}".lstrip(", ")
@@ -121,7 +130,7 @@ class SideBySide:
                 changed = [Assign(ref, v) for ref, v in parts if isinstance(ref, Ref) and ref != v]
                 found += in_order(changed)
             elif lane.phase is None:
-                found.append(Require(real))
+                found.append(Require(real * lane.facing))
             else:
                 cosine, sine = lane.phase
                 found.append(Require(cosine * real + sine * imaginary))

@@ -20,10 +20,11 @@ from tmm_gen.program.space.base import BaseStep, earlier, history_sources
 from tmm_gen.program.space.base_start import start_of_base, unit_start
 from tmm_gen.program.space.bodies import Bodies
 from tmm_gen.program.space.collocation import SpaceCollocation
+from tmm_gen.program.space.collocation_vectors import VectorCollocation, in_vectors
 from tmm_gen.program.space.layout import SpaceLayout, instants, layout_of, moves_as_given
 from tmm_gen.program.space.outputs import output_routine
 from tmm_gen.program.space.step import SpaceStep
-from tmm_gen.program.statements import Assign, Program, Routine, Section
+from tmm_gen.program.statements import Assign, Program, Routine, Section, Vectors
 from tmm_gen.program.variables import Role
 from tmm_gen.scene.spatial.arm import SpatialArm
 
@@ -46,6 +47,8 @@ class SpaceChoices:
         Whether all sweeps are Newton's own.
     sensitivities : bool
         Whether the step's tangent is wanted; not of one that corrects until that changes next to nothing.
+    vectors : bool
+        Whether the step is wanted in vectors too, where the integrator's stages are solved at once.
     facts : tuple of (str, str)
         For headers.
     """
@@ -56,6 +59,7 @@ class SpaceChoices:
     auto: bool = False
     exact: bool = False
     sensitivities: bool = False
+    vectors: bool = False
     facts: tuple[tuple[str, str], ...] = ()
 
 
@@ -160,6 +164,8 @@ class _Assembly:
         alive = living(_without_zeros(whole), auto=self.choices.auto, always=always)
         if self.choices.sensitivities:
             alive = replace(alive, sensitivities=differentiated(alive, self.hoister))
+        if self.choices.vectors and self.integrator.main.coupled:
+            alive = replace(alive, vectors=self._in_vectors(alive))
         return prepared(alive, factors)
 
     @property
@@ -179,6 +185,12 @@ class _Assembly:
         """Return what builds a step whose stages are solved at once."""
         rounds, auto = self.choices.iterations, self.choices.auto
         return SpaceCollocation(self.layout, self.bodies, scheme, rounds, auto, self._split)
+
+    def _in_vectors(self, program: Program) -> Vectors:
+        """Return the step in vectors, which takes all it needs of parameters and bodies by itself."""
+        scheme, rounds, auto = self.integrator.main, self.choices.iterations, self.choices.auto
+        step = VectorCollocation(self.layout, self.bodies, scheme, rounds, auto, _whole)
+        return in_vectors(program, step, self._hold(len(instants(scheme, given=self._given))))
 
     def _stepped(self, scheme: Scheme) -> SpaceStep:
         """Return what builds a step whose stages are solved one after another."""

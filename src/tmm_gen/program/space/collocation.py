@@ -102,7 +102,7 @@ class SpaceCollocation:
         swept = [mend.inward(still=True) if first else mend.again(), mend.back()]
         if first:
             torque, impedance = mend.array(TORQUE), mend.array(IMPEDANCE)
-            swept = [laws.impedances(impedance), laws.shared(torque), mend.circles(), *swept]
+            swept = [laws.impedances(impedance), laws.shared(torque), self._circles(), *swept]
         swept.append(laws.answers(mend.array(OWN), again=not first))
         where = "at the stages, and at the middle of the step" if first else "at the stages"
         motion = (
@@ -119,15 +119,15 @@ class SpaceCollocation:
 
     def _left_over(self, *, first: bool) -> Section:
         """Put together for each system what torques joints, and first of all shafts, lack at the stages."""
-        lacking = [lane.ref(self._over.array(IMBALANCE).at())[0] for lane in self.coupled.stages]
-        body: list[Assign] = []
-        for lane, pair in zip(self.coupled.systems, self.coupled.combined(lacking), strict=True):
-            parts = zip(lane.ref(self._mend.array(TORQUE).at()), pair, strict=True)
-            body += [Assign(ref, value) for ref, value in parts if isinstance(ref, Ref)]
+        body = self.coupled.left_over(self._over.array(IMBALANCE), self._mend.array(TORQUE))
         stations = self.layout.stations
         stretches = [(0, stations)] if first else self.layout.tree.stretches
         loops = tuple(Loop(Order.OUTWARD, start, stop, tuple(body)) for start, stop in stretches)
         return Section("what joints lack, in the system of each eigenvalue", loops)
+
+    def _circles(self) -> Section:
+        """Return what sets the sines by which the sweeps go."""
+        return self._mend.circles()
 
     @cached_property
     def _seen(self) -> dict[str, Ref]:
@@ -174,15 +174,19 @@ class SpaceCollocation:
         found: list[Assign] = []
         for kind in KINDS:
             at_stages = [lane.of(self._at_stages(kind)).at() for lane in self.coupled.stages]
-            at_middle = self._middle.at() if middle and kind == "q" else None
+            at_middle = self._middle.at() if middle and kind == "q" and not self.coupled.spare else None
             found += self.coupled.moved(place, kind, at_stages, at_middle)
         return found
 
     def _given(self, motion: Mapping[Kind, Variable]) -> list[Assign]:
         """Set motion at the stages where it is given, by its arrays."""
         found: list[Assign] = []
-        for instant, lane in enumerate(self.coupled.stages):
-            found += given_motion(self.layout, {k: lane.of(v) for k, v in motion.items()}, instant)
+        for index, lane in enumerate(self.coupled.stages):
+
+            def value(name: str, index: int = index) -> sp.Expr:
+                return self.coupled.at_stages(lambda instant: self.layout.input(name, instant))[index]
+
+            found += given_motion(self.layout, {k: lane.of(v) for k, v in motion.items()}, value)
         return found
 
     @cached_property

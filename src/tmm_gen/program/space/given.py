@@ -14,18 +14,20 @@ from tmm_gen.program.variables import Variable
 from tmm_gen.scene.signal import ACCELERATION
 
 
-def given_motion(layout: SpaceLayout, motion: Mapping[Kind, Variable], instant: int) -> list[Assign]:
-    """Set the motion of joints at an instant of the step, from 0, where it is given.
+def given_motion(
+    layout: SpaceLayout, motion: Mapping[Kind, Variable], value: Callable[[str], sp.Expr]
+) -> list[Assign]:
+    """Set the motion of joints where it is given.
 
     Parameters
     ----------
     motion : mapping from "q", "v", "a" to Variable
         Arrays over the joints, of what is set.
-    instant : int
-        Of those at which inputs are read.
+    value : callable
+        Returns an input by its column.
     """
     return [
-        Assign(motion[kind].entry(item.joint - 1), layout.input(name, instant))
+        Assign(motion[kind].entry(item.joint - 1), value(name))
         for item in layout.arm.inputs
         if item.acts == "angle"
         for kind, name in zip(KINDS, kernel_columns(item), strict=True)
@@ -36,7 +38,8 @@ def given_motion(layout: SpaceLayout, motion: Mapping[Kind, Variable], instant: 
 def given_end(layout: SpaceLayout, scheme: Scheme) -> list[Assign]:
     """Set the motion of joints at the end of the step, where it is given."""
     last = len(instants(scheme, given=True)) - 1
-    return given_motion(layout, {kind: layout.state[Past(kind, 0)] for kind in KINDS}, last)
+    newest = {kind: layout.state[Past(kind, 0)] for kind in KINDS}
+    return given_motion(layout, newest, lambda name: layout.input(name, last))
 
 
 def base_moved(layout: SpaceLayout, value: Callable[[str], sp.Expr]) -> dict[sp.Symbol, sp.Expr]:

@@ -177,7 +177,8 @@ class SpaceStep:
 
     def _given(self, index: int) -> list[Assign]:
         """Set the motion of joints at a stage, from 1, where it is given."""
-        return given_motion(self.layout, {kind: self._motion(kind) for kind in KINDS}, index - 1)
+        motion = {kind: self._motion(kind) for kind in KINDS}
+        return given_motion(self.layout, motion, lambda name: self.layout.input(name, index - 1))
 
     def _read(self, index: int) -> Callable[[str], sp.Expr]:
         """Return how inputs are read at a stage, from 1, by their columns."""

@@ -147,8 +147,6 @@ def favour_suits(document: Document) -> Iterator[Finding]:
     emit, key = document.emit, ("emit", "favour")
     if emit.favour == "size" or "c" not in emit.backends:
         return
-    if document.model.kind == "spatial":
-        yield Finding(key, "is not for arms in space yet: their code has one form", "Remove it.", emit.favour)
     if emit.compensated:
         yield Finding(
             key,
