@@ -54,6 +54,7 @@ RUN = {
         "jax": {"console": 2, "python": 1},
         "learning": {"console": 1, "python": 1},
     },
+    "tests/spatial/test_step_in_vectors.py": {"space": {"toml": 1}},
     "tests/scene/test_reference.py": {"scene": {"toml": 1}},
     HERE: {
         "batch": {"toml": 1},

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import sympy as sp
 
 from tmm_gen.emit.c.printer import CPrinter
@@ -10,6 +12,8 @@ from tmm_gen.program.parts import Part, Vector, is_vector
 from tmm_gen.program.variables import Spread
 
 _SUM, _PRODUCT, _ATOM = 1, 2, 3
+_GROUP = 3
+"""Addends of which each waits for the one before it; longer sums are sums of such, which wait for nothing."""
 
 
 class VectorPrinter(CPrinter):
@@ -58,14 +62,19 @@ class VectorPrinter(CPrinter):
         return self._systems and is_vector(e)
 
     def _sum(self, e: sp.Expr) -> str:
-        if not self._complex(e):
+        if not is_vector(e):
             return super()._sum(e)
-        text = ""
+        addends: list[tuple[str, str]] = []
         for term in ordered_terms(e):
             sign = "-" if is_negative(term) else "+"
-            for addend in self._addends(opposite(term) if sign == "-" else term):
-                text += f" {sign} {addend}" if text else addend if sign == "+" else f"-{addend}"
-        return text
+            positive = opposite(term) if sign == "-" else term
+            texts = self._addends(positive) if self._systems else [self._factor_text(positive, _PRODUCT)]
+            addends += [(sign, text) for text in texts]
+        size = len(addends)
+        if size < 2 * _GROUP:
+            return _added(addends)
+        length = -(-size // (size // _GROUP))
+        return " + ".join(f"({_added(addends[k : k + length])})" for k in range(0, size, length))
 
     def _addends(self, term: sp.Expr) -> list[str]:
         """Return what to add for a term: of a product of two complex numbers two products, each fused with its sum."""
@@ -104,3 +113,9 @@ class VectorPrinter(CPrinter):
         for _ in range(abs(int(exponent)) - 1):
             text = f"times({text}, {one})"
         return (text if exponent > 0 else f"inverse_of({text})"), _ATOM
+
+
+def _added(addends: Sequence[tuple[str, str]]) -> str:
+    """Write a sum of texts with their signs."""
+    (sign, text), *others = addends
+    return f"{'-' if sign == '-' else ''}{text}" + "".join(f" {sign} {other}" for sign, other in others)
