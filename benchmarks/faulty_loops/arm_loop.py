@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -22,7 +23,9 @@ from tmm_gen.onboard.native import FLAGS, EmittedController
 Array = NDArray[np.float64]
 
 AFTER = 200
-"""Calm samples after the last trouble."""
+"""Calm samples after the last trouble, and as many more as the arm takes for its way as fast as it may turn."""
+BRAKING = 50
+"""Calm samples in which it is to be brought to a stop: one that flies on is not waited for."""
 ARRIVED = 0.02
 """Of each joint off its reference, rad."""
 
@@ -37,6 +40,9 @@ class ArmOutcome:
         Calm samples after the last trouble up to the first that is OK.
     last_other, last_off : int
         Up to the last that is not OK, and up to the last at which a joint is more than `ARRIVED` off.
+    way : int
+        Samples in which the joints come back from where they were farthest off while the arm was brought to a stop, at
+        the rates that they may turn at: it may have been thrown many turns away, and rates are bounded.
     outside : int
         Torques that are not finite, or out of the bounds that were in force.
     refused : int
@@ -48,10 +54,16 @@ class ArmOutcome:
     first_ok: int | None = None
     last_other: int = 0
     last_off: int = 0
+    way: int = 0
     outside: int = 0
     refused: int = 0
     statuses: Counter[str] = field(default_factory=Counter)
     answers: Counter[str] = field(default_factory=Counter)
+
+    @property
+    def samples(self) -> int:
+        """Calm samples that there are."""
+        return AFTER + self.way
 
 
 class ArmLoop:
@@ -97,14 +109,20 @@ class ArmLoop:
             for _ in range(trouble.samples):
                 self._sample(plant, *self._spoilt(plant.measured(), held, trouble), found)
         self._restore(carried, found)
-        for since in range(1, AFTER + 1):
+        since = 0
+        while since < found.samples:
+            since += 1
             status = self._sample(plant, plant.measured(), None, found)
             if status is Status.OK and found.first_ok is None:
                 found.first_ok = since
             if status is not Status.OK:
                 found.last_other = since
-            if not np.max(np.abs(plant.angles()[self.problem.count :] - self.problem.reference)) <= ARRIVED:
+            off = np.abs(plant.angles()[self.problem.count :] - self.problem.reference)
+            if not np.max(off) <= ARRIVED:
                 found.last_off = since
+            if since <= BRAKING:
+                needed = np.max(off / self.problem.hub_rate) / self.problem.sample_time
+                found.way = max(found.way, math.ceil(needed))
         return found
 
     def _sample(

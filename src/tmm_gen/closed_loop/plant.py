@@ -205,8 +205,7 @@ class Plant:
         acting = self._acting(torque)
         if self.condition.friction:
             return np.array([self._rubbed(each) for each in acting])
-        for driven, each in zip(self._driven, np.array(acting).T, strict=True):
-            driven[:] = each[:, None]  # one number for each of a step's stages
+        self._drive(acting)
         self.kernel.run(self._inputs, self._outputs)
         return self._angles(dict(zip(self._names, self._seen.T, strict=True)))
 
@@ -216,6 +215,11 @@ class Plant:
         self._torques += [torque] * self.substeps
         acting, self._torques = self._torques[: self.substeps], self._torques[self.substeps :]
         return acting
+
+    def _drive(self, acting: list[Array]) -> None:
+        """Write down what acts in the steps of a sample."""
+        for driven, each in zip(self._driven, np.array(acting).T, strict=True):
+            driven[:] = each[:, None]  # one number for each of a step's stages
 
     def _rubbed(self, torque: Array) -> Array:
         """Take one step under torques, less friction; return the angles after it."""

@@ -33,6 +33,14 @@ class SpacePlant(Plant):
 
     resting: Array
 
+    def __init__(self, scene: Scene, problem: ControlProblem, condition: Condition, seed: int = 0) -> None:
+        super().__init__(scene, problem, condition, seed)
+        kind = self.kernel.types["state"]
+        angle = kind.angle  # type: ignore[attr-defined]
+        self._reached = (kind * self.substeps)()
+        numbers = np.frombuffer(self._reached).reshape(self.substeps, -1)
+        self._reached_angles = numbers[:, angle.offset // 8 : (angle.offset + angle.size) // 8]
+
     def _start(self) -> tuple[Array, Array]:
         """Set the arm where it starts; return angles of tips to reach, and the torques that act at first."""
         self.motors = space_motors(self.scene, self.problem.reference)
@@ -74,12 +82,20 @@ class SpacePlant(Plant):
     def advance(self, torque: Array) -> Array:
         """Let a sample pass under torques chosen now; return the angles after each step, (substeps, 2 m), rad."""
         acting = self._acting(torque)
-        return np.array([self._rubbed(each) for each in acting])
+        if self.condition.friction:
+            return np.array([self._rubbed(each) for each in acting])
+        self._drive(acting)
+        _, status = self.kernel.record(self._inputs, self._outputs, self._reached)
+        self.kernel.raise_for(status)
+        return self._angles_of(self._reached_angles)
 
     def angles(self) -> Array:
         """Return angles of tips and hubs, (2 m,), rad."""
-        angle = self.kernel.state["angle"]
-        return np.concatenate([self.motors.tip @ angle, self.motors.hub @ angle])
+        return self._angles_of(self.kernel.state["angle"])
+
+    def _angles_of(self, joints: Array) -> Array:
+        """Return angles of tips and hubs, (..., 2 m), of all joints, (..., d), rad."""
+        return np.concatenate([joints @ self.motors.tip.T, joints @ self.motors.hub.T], axis=-1)
 
 
 def plant_of(scene: Scene, problem: ControlProblem, condition: Condition, seed: int = 0) -> Plant:

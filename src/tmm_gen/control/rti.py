@@ -29,6 +29,11 @@ Array = NDArray[np.float64]
 
 AWAY = 0.05
 """Sensitivities of zero order are renewed where a joint is to rest so much elsewhere, rad."""
+FAR = 1.5
+"""Where a joint is so far from where it is to rest, they are taken about where the arm is, rad: folded by a quarter of a
+turn it may turn so much more easily that it would be thrown from side to side for ever."""
+TURNED = 0.5
+"""How far a joint may turn meanwhile before they are taken anew, rad."""
 MOVING = 1e-3
 """What a reference moves by in a sample that is not about to rest, rad."""
 
@@ -76,9 +81,9 @@ class RealTimeIteration(Movable):
         What each motor turns, kg m^2, for the safe law.
     zero_order : bool
         Whether to keep the sensitivities of the linear model, and its filter's gain, instead of computing those
-        along the trajectory. They are renewed where the arm is told to carry something else, or to rest elsewhere:
-        what a torque does to an arm so much lighter, or folded, would be taken for a fraction of it, and iterations
-        would overshoot ever more.
+        along the trajectory. They are renewed where the arm is told to carry something else, or to rest elsewhere,
+        and while it is far from there: what a torque does to an arm so much lighter, or folded, would be taken for a
+        fraction of it, and iterations would overshoot ever more.
     """
 
     def __init__(
@@ -131,16 +136,25 @@ class RealTimeIteration(Movable):
             self._renew()
         return status
 
-    def _renew(self) -> None:
-        """Take sensitivities of zero order about the rest that is aimed at."""
-        self._use(self._unladen.about(self.model, self.rest, self.goal.torque))
-        self._renewed_at = self.goal.hub
+    def _renew(self, hub: Array | None = None) -> None:
+        """Take sensitivities of zero order about the rest that is aimed at, or that of the same shape elsewhere."""
+        state, hub = self.rest.copy(), self.goal.hub if hub is None else hub
+        state[self.model.places("angle")] += self.model.motors.turned @ (hub - self.goal.hub)
+        self._use(self._unladen.about(self.model, state, self.goal.torque))
+        self._renewed_at = hub
 
     def _keep_up(self) -> None:
-        """Renew sensitivities of zero order where the reference has come to rest elsewhere, or moves slowly."""
-        moving = np.max(np.abs(self.goal.hub - self._aimed)) > MOVING
-        self._aimed = self.goal.hub
-        if not moving and np.max(np.abs(self.goal.hub - self._renewed_at)) > AWAY:
+        """Renew sensitivities of zero order where the reference has come to rest elsewhere, or moves slowly.
+
+        While the arm is far from there, take them about where it is.
+        """
+        goal, (hub, _) = self.goal.hub, self.estimator.hubs()
+        moving = np.max(np.abs(goal - self._aimed)) > MOVING
+        self._aimed = goal
+        if np.max(np.abs(hub - goal)) > FAR:
+            if np.max(np.abs(hub - self._renewed_at)) > TURNED:
+                self._renew(hub)
+        elif not moving and np.max(np.abs(goal - self._renewed_at)) > AWAY:
             self._renew()
 
     def _forget(self) -> None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.c_language.names import macros
 from tmm_gen.control.motor_rows import Motor
-from tmm_gen.control.rti import AWAY, MOVING
+from tmm_gen.control.rti import AWAY, FAR, MOVING, TURNED
 from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.terms import Kind
 from tmm_gen.control.walls import Wall
@@ -70,9 +70,9 @@ class RtiText(ControllerText):
         return self.carries and not self.full
 
     @property
-    def renewal(self) -> tuple[float, float]:
-        """What a reference that moves on moves by in a sample, and from how far away they are found anew, rad."""
-        return MOVING, AWAY
+    def renewal(self) -> tuple[float, float, float, float]:
+        """When they are found anew, rad: see the constants of :mod:`tmm_gen.control.rti`."""
+        return MOVING, AWAY, FAR, TURNED
 
     @property
     def keeps_program(self) -> bool:

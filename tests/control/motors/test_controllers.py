@@ -14,7 +14,7 @@ from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilte
 from tmm_gen.control.full_nmpc import FullNmpc
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear_mpc import LinearMpc
-from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.rti import FAR, TURNED, RealTimeIteration
 from tmm_gen.scene import Scene
 
 NONE = np.zeros(2)
@@ -120,6 +120,29 @@ def test_sensitivities_of_zero_order_are_those_of_what_is_carried_and_where(two:
     _same_answers(told, light.replace(**{"control.reference": elsewhere}))
     told.reset()
     assert told.prepared.slopes is own
+
+
+def test_sensitivities_of_zero_order_are_those_of_where_a_far_arm_is(two: Bench) -> None:
+    """But for how it sags there, until it is near again; half of what it may turn meanwhile does not count."""
+    told, there = (RealTimeIteration(two.step, two.links, two.inertia, zero_order=True) for _ in "ab")
+    own, goal, nothing = told.prepared.slopes.hub, told.goal.hub, [np.nan, np.nan]
+    for elbow, near in ((0.9 * FAR, True), (2.0 * FAR, False)):
+        told.reset()
+        told.command(np.array([*goal + [0.0, elbow], *nothing]))
+        told.prepare()
+        assert (told.prepared.slopes.hub is own) is near
+    place = goal + [0.0, elbow]
+    assert there.aim(place) is Status.OK
+    for _ in range(3):  # it is near there, and the reference has to stay for a sample
+        there.command(np.array([*place, *nothing]))
+    right = there.prepared.slopes.hub
+    far = told.prepared.slopes.hub
+    assert np.abs(far - right).max() < 0.3 * np.abs(own - right).max()
+    for turned, kept in ((0.5 * TURNED, True), (FAR, False)):
+        told.estimator.turn(np.array([0.0, -turned]))
+        told._shift()
+        assert (told.prepared.slopes.hub is far) is kept
+    assert_allclose(told.prepared.slopes.hub, own, atol=1e-9 * np.abs(own).max())
 
 
 def _same_answers(found: RealTimeIteration, scene: Scene) -> None:
