@@ -128,13 +128,13 @@ def test_sensitivities_of_zero_order_are_those_of_where_a_far_arm_is(two: Bench)
     own, goal, nothing = told.prepared.slopes.hub, told.goal.hub, [np.nan, np.nan]
     for elbow, near in ((0.9 * FAR, True), (2.0 * FAR, False)):
         told.reset()
-        told.command(np.array([*goal + [0.0, elbow], *nothing]))
+        place = goal + np.array([0.0, elbow])
+        told.command(np.append(place, nothing))
         told.prepare()
         assert (told.prepared.slopes.hub is own) is near
-    place = goal + [0.0, elbow]
     assert there.aim(place) is Status.OK
     for _ in range(3):  # it is near there, and the reference has to stay for a sample
-        there.command(np.array([*place, *nothing]))
+        there.command(np.append(place, nothing))
     right = there.prepared.slopes.hub
     far = told.prepared.slopes.hub
     assert np.abs(far - right).max() < 0.3 * np.abs(own - right).max()

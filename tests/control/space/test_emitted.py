@@ -18,7 +18,8 @@ from tmm_gen.control.course import Course
 from tmm_gen.control.credible import PATIENCE
 from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.rti import FAR, RealTimeIteration
+from tmm_gen.control.target import rest_with
 from tmm_gen.control.walls import Wall
 from tmm_gen.onboard.emit import emit_controller, usual_controller
 from tmm_gen.onboard.native import EmittedController
@@ -76,6 +77,28 @@ def test_encoders_that_come_and_go_are_those_of_python(bench: Bench, zero: Emitt
     assert {Status.OK, Status.REDUCED, Status.MEASUREMENT} == set(statuses)
     assert set(statuses[30:40]) == {Status.MEASUREMENT}
     assert set(statuses[40 + PATIENCE + 1 :]) == {Status.OK}
+
+
+def test_an_arm_far_from_its_goal_is_that_of_python(bench: Bench, zero: EmittedController) -> None:
+    """Overhead and beyond: sensitivities are found where it is on its way, and at last those of its goal once more."""
+    zero.reset()
+    python, plant = in_python(bench, "rti-zero"), plant_of(bench.scene, bench.problem, CONDITIONS[0])
+    start = rest_with(plant.scene, np.array([0.0, bench.problem.reference[1] - 2.6 * FAR]), "initial.angles")
+    plant.kernel.initialise(
+        initial_angle=start.angles,
+        inputs=plant.motors.torques(np.clip(start.goal.torque, *bench.problem.torque)),
+    )
+    own, found_at = python.prepared, [python.prepared]
+    for _ in range(50):
+        seen = plant.measured()
+        expected, found = python.command(seen), zero.command(seen)
+        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=DAQP)
+        assert found.status is expected.status is Status.OK
+        if python.prepared is not found_at[-1]:
+            found_at.append(python.prepared)
+        plant.advance(expected.torque)
+    assert len(found_at) > 4
+    assert_allclose(found_at[-1].slopes.hub, own.slopes.hub, atol=1e-9)
 
 
 def test_the_goal_is_reached(bench: Bench, zero: EmittedController) -> None:
