@@ -4,8 +4,8 @@
 
 Goals are joint angles that the motors can hold, half of them such that the tool rests within 5 cm of the wall. The tool
 has arrived when it stays within a centimetre of where the arm rests there. Controllers that are written in C run as
-compiled C, one for all goals, told of them by `_aim()`; the others in Python, made for each goal. What is done is kept
-in a file, and not done again. `--update` renews docs/mpc.md.
+compiled C, one for all goals, told of them by `_aim()`, and of what the arm carries by `_carry()` where it is told; the
+others in Python, made for each goal. What is done is kept in a file, and not done again. `--update` renews docs/mpc.md.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 from marks import renewed
 from numpy.typing import NDArray
+from support.carrying import payload_of
 
 from tmm_gen.cli.console import progress
 from tmm_gen.closed_loop.compare import made
@@ -46,7 +47,9 @@ ROOT = Path(__file__).parents[1]
 SCENE = ROOT / "examples" / "space" / "wall3.toml"
 PAGE = ROOT / "docs" / "mpc.md"
 TRIED = ("pd-id", "lqr", "rti-zero", "rti")
-SHOWN = ("nominal", "payload", "soft", "delay")
+TOLD = Condition("told", "the same, told", payload=1.5)
+"""Of those that can be told."""
+SHOWN = ("nominal", "payload", "told", "soft", "delay")
 RANGES = {"yaw": (-1.5, 1.5), "shoulder": (-0.8, 0.4), "elbow": (0.2, 1.4)}
 NEAR = 0.05
 """Goals of which half are no farther from the wall, m."""
@@ -54,7 +57,7 @@ DURATION = 2.0
 ARRIVED = 0.01
 """Distance from the goal, m."""
 
-CASES = {case.name: case for case in CONDITIONS}
+CASES = {case.name: case for case in (*CONDITIONS, TOLD)}
 
 Array = NDArray[np.float64]
 Rows = list[dict[str, object]]
@@ -107,14 +110,19 @@ class Aimed:
         For any goal.
     goal : array, (m,)
         rad.
+    payload : float, optional
+        What it is told that the arm carries, kg.
     """
 
     controller: EmittedController
     goal: Array
+    payload: float | None = None
 
     def reset(self) -> None:
         """Forget all measurements, and aim at the goal."""
         self.controller.reset()
+        if self.payload is not None and self.controller.carry(self.payload) is not Status.OK:
+            raise SystemExit(f"no rest with {self.payload} kg")
         if self.controller.aim(self.goal) is not Status.OK:
             raise SystemExit(f"no rest at {self.goal}")
 
@@ -145,7 +153,8 @@ def emitted(name: str, delay: float) -> EmittedController:
 def controller_of(name: str, goal: Array, bench: Bench, case: Condition) -> Controller:
     """Return a controller for a goal, told of the delay, which is no secret."""
     if name in EMITTED:
-        return Aimed(emitted(name, bench.problem.delay + case.delay), goal)
+        told = case.payload * payload_of(bench.scene) if case is TOLD else None
+        return Aimed(emitted(name, bench.problem.delay + case.delay), goal, told)
     return made(BY_NAME[name], bench.told(case), compiled=False)
 
 
@@ -201,6 +210,8 @@ def trials(count: int, seed: int, conditions: list[str], out: Path) -> Rows:
     with progress("goals", total=count * len(conditions) * len(TRIED)) as advance:
         for condition in conditions:
             for name in TRIED:
+                if condition == TOLD.name and name not in EMITTED:
+                    continue
                 for number, goal in enumerate(drawn):
                     if (condition, name, number) not in done:
                         rows.append(trial(name, number, goal, CASES[condition]))

@@ -30,8 +30,8 @@ Array = NDArray[np.float64]
 AWAY = 0.05
 """Sensitivities of zero order are renewed where a joint is to rest so much elsewhere, rad."""
 FAR = 1.5
-"""Where a joint is so far from where it is to rest, they are taken about where the arm is, rad: an arm without gears, if
-folded, may turn so much more easily that it would be thrown from side to side for ever."""
+"""Where a joint is so far from where it is to rest, they are taken about where the arm is, rad: an arm without gears,
+if folded, may turn so much more easily that it would be thrown from side to side for ever."""
 TURNED = 0.5
 """How far a joint may turn meanwhile before they are taken anew, rad."""
 MOVING = 1e-3
