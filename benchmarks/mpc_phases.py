@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import mpc_speed
 import numpy as np
 from marks import renewed
+from mpc_solvers.record import emitted, record
 from mpc_solvers.task import arm
 
 from tmm_gen.cli.console import Column, table
@@ -30,8 +31,8 @@ def phases(counts: Sequence[int]) -> list[dict[str, object]]:
     rows: list[dict[str, object]] = []
     for links in counts:
         bench = Bench.of(arm(links))
-        made = {kind: mpc_speed.emitted(bench, kind) for kind in KINDS}
-        measured = mpc_speed.record(bench, made["rti"]).measured
+        made = {kind: emitted(bench, kind) for kind in KINDS}
+        measured = record(bench, made["rti"], mpc_speed.DURATION).measured
         for kind, controller in made.items():
             runs = []
             for _ in range(ROUNDS):

@@ -19,6 +19,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 from marks import renewed
+from mpc_solvers.record import emitted
+from mpc_solvers.task import arm_in_space
 from numpy.typing import NDArray
 
 from tmm_gen.cli.console import Column, table
@@ -28,17 +30,13 @@ from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Command, Flags, Status
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.files import write_whole
-from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.native import EmittedController
-from tmm_gen.scene import load_scene
-from tmm_gen.scene.scene import Scene
 
 ROOT = Path(__file__).resolve().parents[1]
-SCENE, PAGE = ROOT / "examples" / "space" / "wall3.toml", ROOT / "docs" / "mpc-speed.md"
+PAGE = ROOT / "docs" / "mpc-speed.md"
 CELLS = ((3, 2), (3, 3), (5, 5))
 """Of both links; each cell is two joints."""
 KINDS = ("rti", "rti-zero")
-FLAGS = ("-O3", "-march=native", "-ffp-contract=off")
 ROUNDS = 12
 DURATION = 2.0
 
@@ -70,29 +68,15 @@ class Heard:
         return self.controller.command(measured, valid)
 
 
-def scene_of(cells: tuple[int, int]) -> Scene:
-    """Return the arm with so many cells in its links."""
-    changes: dict[str, object] = {
-        f"beam.{name}.links": count for name, count in zip(("upper", "forearm"), cells, strict=True)
-    }
-    return load_scene(SCENE).replace(**changes)
-
-
-def compiled(scene: Scene, kind: str) -> EmittedController:
-    """Return a controller as C for this machine."""
-    bench = Bench.of(scene if kind == "rti" else scene.replace(**{"control.keep": []}))
-    count = bench.problem.count
-    return EmittedController(*emit_controller(bench, kind), range(count), flags=FLAGS, motors=count)
-
-
 def phases(cells: Sequence[tuple[int, int]]) -> list[dict[str, object]]:
     """Return a row for each arm and controller; microseconds."""
     rows: list[dict[str, object]] = []
     nominal = next(case for case in CONDITIONS if case.name == "nominal")
     for each in cells:
-        scene = scene_of(each)
-        made = {kind: compiled(scene, kind) for kind in KINDS}
-        heard, bench = Heard(made["rti"]), Bench.of(scene)
+        bench = Bench.of(arm_in_space(each))
+        bare = Bench.of(arm_in_space(each, walled=False))
+        made = {kind: emitted(bench if kind == "rti" else bare, kind) for kind in KINDS}
+        heard = Heard(made["rti"])
         run_loop(heard, SpacePlant(bench.scene, bench.problem, nominal, 0), DURATION, timed=False)
         measured = np.array(heard.measured)
         runs: dict[str, list[tuple[Array, Array]]] = {kind: [] for kind in KINDS}

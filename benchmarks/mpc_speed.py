@@ -22,7 +22,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -35,19 +34,17 @@ from marks import renewed
 from mpc_solvers.do_mpc_controller import DoMpc
 from mpc_solvers.motion import Motion
 from mpc_solvers.page import section
+from mpc_solvers.record import Converged, Solver, emitted, record, time_emitted, time_other
 from mpc_solvers.sequential import Sequential
 from mpc_solvers.stage import Stage
 from mpc_solvers.task import arm
 
 from tmm_gen.cli.console import Column, plain, progress, table
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.command import Command, Controller
+from tmm_gen.control.command import Controller
 from tmm_gen.control.extended_kalman import NonlinearFilter
-from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_tree_whole, write_whole
-from tmm_gen.onboard.emit import emit_controller
-from tmm_gen.onboard.native import EmittedController
 from tmm_gen.style import PALETTE, figure, picture, style
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -57,13 +54,8 @@ COSTS = (5, 10)
 GROWTH = (2, 5, 10, 20, 50)
 DURATION = 2.5
 REPEATS = 16
-MOST_ITERATIONS = 8
 COSTED = 50
-FLAGS = ("-O3", "-march=native", "-ffp-contract=off")
 EMITTED = {"rti": "full RTI, C", "rti-zero": "zero-order RTI, C", "mpc-links": "linear MPC, links, C"}
-
-Solver = Callable[[np.ndarray, float, float], float]
-"""From state, last torque and disturbance to the torque."""
 
 
 @dataclass(frozen=True)
@@ -94,64 +86,6 @@ def outputs(bench: Bench) -> dict[str, np.ndarray]:
 # -- measuring --------------------------------------------------------------------------------------------------
 
 
-@dataclass
-class Record:
-    """A closed loop: what was measured and answered, and estimates with last torques for those without estimator."""
-
-    measured: np.ndarray
-    torques: np.ndarray
-    states: np.ndarray
-    last: np.ndarray
-    disturbances: np.ndarray
-
-
-def emitted(bench: Bench, controller: str) -> EmittedController:
-    name, files = emit_controller(bench, controller)
-    sensors = [i for i, on in enumerate((True, bench.problem.sensors.accelerometer is not None, False)) if on]
-    return EmittedController(name, files, sensors, flags=FLAGS)
-
-
-def record(bench: Bench, controller: EmittedController) -> Record:
-    """Run the closed loop on the model itself, without noise; estimates are those of the same filter in Python."""
-    step = bench.step
-    controller.reset()
-    samples = round(DURATION / bench.problem.sample_time)
-    observer = NonlinearFilter(step, bench.links)
-    past = np.zeros((step.delay.memory + 1, 1))
-    state = step.initial()
-    rows: list[tuple[np.ndarray, float, np.ndarray, float, float]] = []
-    for _ in range(samples):
-        seen = np.array(step.sensors(state)).ravel()
-        observer.correct(observer.surprise(seen), tuple(observer.sensors), np.full(1, np.inf))
-        torque = controller.command(seen).torque
-        estimate = observer.estimate.copy()
-        rows.append((seen, float(torque[0]), estimate[:-1], float(past[-1, 0]), float(estimate[-1])))
-        past = np.vstack([past[1:], torque])
-        observer.advance(step.delay.pair(past), step.delay.end(past))
-        state = np.array(step.sample(state, np.hstack(step.delay.pair(past)))).ravel()
-    return Record(*(np.array(column) for column in zip(*rows, strict=True)))
-
-
-def time_emitted(controller: EmittedController, seen: Record) -> tuple[np.ndarray, np.ndarray]:
-    """Return the time of each sample, the median over repetitions of the whole loop, and the torques."""
-    runs = []
-    for _ in range(REPEATS // 2):
-        controller.reset()
-        runs.append(controller.run(seen.measured))
-    return np.array([run.seconds for run in runs]), runs[0].torques[:, 0]
-
-
-def time_other(solver: Solver, seen: Record, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the time of each of the first samples, and the torques."""
-    seconds, torques = [], []
-    for k in range(min(count, len(seen.last))):
-        begin = time.thread_time()
-        torque = solver(seen.states[k], float(seen.last[k]), float(seen.disturbances[k]))
-        seconds.append(time.thread_time() - begin)
-        torques.append(torque)
-    return np.array(seconds), np.array(torques)
-
-
 def measure(links: int, others: bool, most: int, advance: Callable[..., None]) -> list[dict[str, object]]:
     """Return a row for each solver.
 
@@ -168,8 +102,8 @@ def measure(links: int, others: bool, most: int, advance: Callable[..., None]) -
     """
     bench = Bench.of(arm(links))
     made = {kind: emitted(bench, kind) for kind in EMITTED}
-    seen = record(bench, made["rti"])
-    first = {kind: time_emitted(controller, seen) for kind, controller in made.items()}
+    seen = record(bench, made["rti"], DURATION)
+    first = {kind: time_emitted(controller, seen, REPEATS // 2) for kind, controller in made.items()}
     share = 1.0 / (1 + len(OTHERS) * others)
     advance(share, f"{links} links: emitted C")
     found: dict[str, tuple[np.ndarray, np.ndarray]] = {}
@@ -178,7 +112,7 @@ def measure(links: int, others: bool, most: int, advance: Callable[..., None]) -
         for name, other in OTHERS.items():
             found[name] = time_other(other.make(stage), seen, min(most, other.samples.get(links, most)))
             advance(share, f"{links} links: {name}")
-    again = {kind: time_emitted(controller, seen)[0] for kind, controller in made.items()}
+    again = {kind: time_emitted(controller, seen, REPEATS // 2)[0] for kind, controller in made.items()}
     own = {
         EMITTED[kind]: (np.median(np.concatenate([seconds, again[kind]]), axis=0), torques)
         for kind, (seconds, torques) in first.items()
@@ -219,22 +153,6 @@ def compile_all(counts: Sequence[int], compared: Sequence[int]) -> None:
                 advance(1.0 / len(names))
             if not names:
                 advance(1.0)
-
-
-class Converged(RealTimeIteration):
-    """Sequential quadratic programming to convergence at every sample: the same iteration, repeated."""
-
-    def _solved(self, last: np.ndarray) -> Command:
-        state, disturbance = self.estimator.ahead(self.delay.known(self._past))
-        for _ in range(MOST_ITERATIONS + 1):
-            before = self._plan.copy()
-            self._plan = np.hstack(
-                [before[:, :1], before[:, :-1]]
-            )  # what is shifted again becomes the plan as it is
-            command = self.decide(state, disturbance, last)
-            if np.abs(self._plan - before).max() < 1e-7:
-                break
-        return command
 
 
 def costs(links: int) -> list[dict[str, object]]:

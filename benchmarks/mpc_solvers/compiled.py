@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import tempfile
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -45,3 +46,18 @@ def library(write: Callable[[str], None], name: str, more: tuple[str, ...] = ())
 def compiled(function: Any, more: tuple[str, ...] = ()) -> Any:
     """Return a function, or solver, as compiled C."""
     return ca.external(function.name(), str(library(function.generate, function.name(), more)))
+
+
+@dataclass(frozen=True, eq=False)
+class External:
+    """A function as compiled C, and the options for a compiler of what calls it."""
+
+    function: Any
+    options: tuple[str, ...]
+
+
+def external(function: Any) -> External:
+    """Compile a function that others call, from C or by CasADi."""
+    path = library(function.generate, function.name())
+    options = (f"-L{path.parent}", f"-Wl,-rpath,{path.parent}", "-Wl,--no-as-needed", f"-l:{path.name}")
+    return External(ca.external(function.name(), str(path)), options)

@@ -13,7 +13,7 @@ import numpy as np
 
 from mpc_solvers.compiled import library
 from mpc_solvers.scatter import scattered
-from mpc_solvers.stage import INPUTS, Stage
+from mpc_solvers.stage import Stage
 
 QUIET: dict[str, Any] = {"ipopt.print_level": 0, "ipopt.sb": "yes", "print_time": 0}
 PUSHES = (
@@ -53,16 +53,20 @@ class DoMpc:
             self.controller.S = ca.nlpsol("S", "ipopt", str(_compiled(stage, self.controller)), TUNED)
         self._started = False
 
-    def __call__(self, state: np.ndarray, last: float, disturbance: float) -> float:
-        """Return the torque."""
+    def __call__(self, state: np.ndarray, last: np.ndarray, disturbance: np.ndarray) -> np.ndarray:
+        """Return the torques, (m,), from a state of the kernel, last torques and disturbances."""
+        motion = self._motion
         self._template["_p", 0, "d"] = disturbance
-        start = self._motion.start(state, last)
+        places = np.array(motion.places(state[motion.angles])).ravel()
+        start = np.append(motion.start(state, last), places)
         if not self._started:
-            self.controller.x0, self.controller.u0 = start, np.zeros(INPUTS)
+            idle = np.zeros(motion.inputs)
+            idle[: motion.motors] = last
+            self.controller.x0, self.controller.u0 = start, idle
             self.controller.set_initial_guess()
             self._started = True
         with contextlib.redirect_stdout(io.StringIO()):
-            return float(self.controller.make_step(start[:, None])[0, 0])
+            return np.array(self.controller.make_step(start[:, None])[: motion.motors, 0])
 
 
 def _compiled(stage: Stage, controller: Any) -> Path:
@@ -78,7 +82,7 @@ def _compiled(stage: Stage, controller: Any) -> Path:
             generator.add(solver.get_function(name))
         generator.generate()
 
-    return library(write, "nlp")
+    return library(write, "nlp", stage.linked)
 
 
 def _controller(stage: Stage, kind: str) -> tuple[Any, Any]:
@@ -87,13 +91,15 @@ def _controller(stage: Stage, kind: str) -> tuple[Any, Any]:
         warnings.simplefilter("ignore")
         import do_mpc
 
-    motion, problem = stage.motion, stage.motion.bench.problem
+    motion, problem = stage.motion, stage.motion.problem
     model = do_mpc.model.Model("discrete", kind)
-    x = model.set_variable("_x", "x", shape=(motion.size, 1))
-    u = model.set_variable("_u", "u", shape=(INPUTS, 1))
-    disturbance = model.set_variable("_p", "d")
-    model.set_rhs("x", stage.after(x, u, disturbance))
+    # it bounds a state and not what comes after it: places at walls, of accelerations there, are states here
+    whole = model.set_variable("_x", "x", shape=(motion.size + motion.kept, 1))
+    u = model.set_variable("_u", "u", shape=(motion.inputs, 1))
+    disturbance = model.set_variable("_p", "d", shape=(motion.motors, 1))
+    model.set_rhs("x", stage.after(whole[: motion.size], u, disturbance))
     model.setup()
+    x, walls = whole[: motion.size], whole[motion.size :]  # setting up made other symbols of them
     controller = do_mpc.controller.MPC(model)
     controller.set_param(
         n_horizon=problem.horizon,
@@ -104,15 +110,14 @@ def _controller(stage: Stage, kind: str) -> tuple[Any, Any]:
     )
     running = motion.state_cost(x) + motion.input_cost(x, u, disturbance)
     controller.set_objective(mterm=motion.state_cost(x) + motion.cost_to_go(x, disturbance), lterm=running)
-    controller.set_rterm(u=np.zeros(INPUTS))
+    controller.set_rterm(u=np.zeros(motion.inputs))
     for side, value in zip(("lower", "upper"), problem.torque, strict=True):
         beyond = -np.inf if side == "lower" else np.inf
-        controller.bounds[side, "_u", "u"] = np.array([value[0], *[beyond] * (INPUTS - 1)])
-    seen = motion.outputs(x)
-    highest, lowest_hub, highest_hub = motion.bounds
-    controller.set_nl_cons("tip", seen["tip"] - u[1], ub=highest)
-    controller.set_nl_cons("hub_high", seen["hub"] - u[2], ub=highest_hub)
-    controller.set_nl_cons("hub_low", -seen["hub"] - u[2], ub=-lowest_hub)
+        slacks = np.full(motion.inputs - motion.motors, beyond)
+        controller.bounds[side, "_u", "u"] = np.append(value, slacks)
+    for bound in motion.bounds(x, walls, u):
+        above = np.isfinite(bound.high)
+        controller.set_nl_cons(bound.name, *((bound.row, bound.high) if above else (-bound.row, -bound.low)))
     template = controller.get_p_template(1)
     controller.set_p_fun(lambda _: template)
     controller.setup()
@@ -124,17 +129,19 @@ def derivatives(stage: Stage, controller: Any) -> tuple[Any, Any]:
 
     CasADi's own would colour the whole horizon and carry forty directions through each stage.
     """
-    programme, count, size = controller.nlp, stage.motion.bench.problem.horizon, stage.motion.size
+    programme, motion, count = controller.nlp, stage.motion, stage.motion.problem.horizon
+    size, wide = motion.size, motion.size + motion.kept
     point, given = programme["x"].numel(), programme["p"].numel()
     x, p = ca.MX.sym("x", point), ca.MX.sym("p", given)
     places = controller.opt_x(np.arange(point))
     columns = [
-        np.concatenate([_whole(places["_x", k, 0, -1]), _whole(places["_u", k, 0])]) for k in range(count)
+        np.concatenate([_whole(places["_x", k, 0, -1])[:size], _whole(places["_u", k, 0])])
+        for k in range(count)
     ]
-    # rows: the initial state, then stage by stage the state after it and three bounds
-    rows = [np.arange(size) + size + k * (size + 3) for k in range(count)]
+    # rows: the initial state, then stage by stage the state after it and its bounds
+    rows = [np.arange(wide) + wide + k * (wide + len(motion.bounded)) for k in range(count)]
     table = ca.horzcat(*(x[part.tolist()] for part in columns))
-    disturbance = p[int(controller.opt_p(np.arange(given))["_p", 0, "d"])]
+    disturbance = p[_whole(controller.opt_p(np.arange(given))["_p", 0, "d"]).tolist()]
     stages = [table[:size, :], table[size:, :], ca.repmat(disturbance, 1, count)]
 
     symbols = [programme["x"], programme["p"]]

@@ -10,7 +10,7 @@ import numpy as np
 
 from mpc_solvers.compiled import HPIPM, compiled
 from mpc_solvers.scatter import scattered
-from mpc_solvers.stage import INPUTS, Stage
+from mpc_solvers.stage import Stage
 
 QP_OPTIONS: dict[str, dict[str, Any]] = {
     "qrqp": {"print_iter": False, "print_header": False, "print_info": False, "print_time": False},
@@ -50,13 +50,14 @@ def horizon(stage: Stage, slopes: Any) -> Horizon:
     slopes : Function
         ``stage.rows_slopes``, perhaps compiled.
     """
-    motion, problem = stage.motion, stage.motion.bench.problem
-    count, size = problem.horizon, motion.size
-    width, height = size + INPUTS, size + 3
+    motion, problem = stage.motion, stage.motion.problem
+    count, size, inputs = problem.horizon, motion.size, motion.inputs
+    width, height, bounds = size + inputs, motion.height, motion.bounded
     cost, gradient, hessian = _cost(stage)
-    point, disturbance = ca.MX.sym("x", count * width + size), ca.MX.sym("p")
+    point, disturbance = ca.MX.sym("x", count * width + size), ca.MX.sym("p", motion.motors)
     table = ca.reshape(point[: count * width], width, count)
-    following = ca.vertcat(ca.horzcat(table[:size, 1:], point[count * width :]), ca.MX.zeros(3, count))
+    states = ca.horzcat(table[:size, 1:], point[count * width :])
+    following = ca.vertcat(states, ca.MX.zeros(height - size, count))
     given = table[:size, :], table[size:, :], ca.repmat(disturbance, 1, count)
     value = cost(point, disturbance)
     rows, blocks = slopes.map(count)(*given)
@@ -73,11 +74,8 @@ def horizon(stage: Stage, slopes: Any) -> Horizon:
     found = [value, gradient(point, disturbance), ca.vec(rows - following), jacobian]
     multipliers = [ca.MX.sym("lam_f"), ca.MX.sym("lam_g", count * height)]
     low, high = np.full((count, width), -np.inf), np.full((count, width), np.inf)
-    low[:, size], high[:, size] = problem.torque
+    low[:, size : size + motion.motors], high[:, size : size + motion.motors] = problem.torque
     free = np.full(size, np.inf)
-    highest_tip, lowest_hub, highest_hub = motion.bounds
-    lowest = [*np.zeros(size), -np.inf, -np.inf, lowest_hub]
-    highest = [*np.zeros(size), highest_tip, highest_hub, np.inf]
     programme = {"x": point, "p": disturbance, "f": value}
     programme["g"] = ca.vec(stage.rows.map(count)(*given) - following)
     return Horizon(
@@ -92,16 +90,16 @@ def horizon(stage: Stage, slopes: Any) -> Horizon:
         ),
         np.concatenate([low.ravel(), -free]),
         np.concatenate([high.ravel(), free]),
-        np.tile(lowest, count),
-        np.tile(highest, count),
+        np.tile([*np.zeros(size), *(bound.low for bound in bounds)], count),
+        np.tile([*np.zeros(size), *(bound.high for bound in bounds)], count),
     )
 
 
 def _cost(stage: Stage) -> tuple[Any, Any, Any]:
     """Return the cost, its gradient, and its Hessian, which is constant."""
-    motion, problem = stage.motion, stage.motion.bench.problem
-    count, size, width = problem.horizon, motion.size, motion.size + INPUTS
-    point, disturbance = ca.SX.sym("x", count * width + size), ca.SX.sym("p")
+    motion, count = stage.motion, stage.motion.problem.horizon
+    size, width = motion.size, motion.size + motion.inputs
+    point, disturbance = ca.SX.sym("x", count * width + size), ca.SX.sym("p", motion.motors)
     value: Any = 0.0
     for k in range(count):
         here, after = point[k * width : k * width + size], point[(k + 1) * width : (k + 1) * width + size]
@@ -129,7 +127,7 @@ class Sequential:
 
     def __init__(self, stage: Stage, qpsol: str, whole: bool) -> None:
         self._motion = stage.motion
-        made = horizon(stage, stage.rows_slopes if whole else compiled(stage.rows_slopes))
+        made = horizon(stage, stage.rows_slopes if whole else compiled(stage.rows_slopes, stage.linked))
         options = {
             "qpsol": qpsol,
             "qpsol_options": {"error_on_fail": False, **QP_OPTIONS[qpsol]},
@@ -139,7 +137,7 @@ class Sequential:
             "jac_fg": made.slopes,
         }
         solver = ca.nlpsol("nmpc", "sqpmethod", made.problem, options)
-        self._solver = compiled(solver, MORE[qpsol]) if whole else solver
+        self._solver = compiled(solver, (*MORE[qpsol], *stage.linked)) if whole else solver
         # numbers stay where they are: converting them would take as long as solving
         self._buffer, self._call = self._solver.buffer()
         self._given, self._found = {}, {}
@@ -156,21 +154,24 @@ class Sequential:
             self._given[name][:] = values
         self._started = False
 
-    def __call__(self, state: np.ndarray, last: float, disturbance: float) -> float:
-        """Return the torque."""
-        given, found, size = self._given, self._found, self._motion.size
-        start, width = self._motion.start(state, last), size + INPUTS
+    def __call__(self, state: np.ndarray, last: np.ndarray, disturbance: np.ndarray) -> np.ndarray:
+        """Return the torques, (m,), from a state of the kernel, last torques and disturbances."""
+        given, found, motion = self._given, self._found, self._motion
+        size, width, torques = motion.size, motion.size + motion.inputs, found["x"][motion.size :]
+        start = motion.start(state, last)
         if not self._started:
             stages = len(given["x0"]) // width
-            given["x0"][:] = np.append(np.tile(np.append(start, np.zeros(INPUTS)), stages), start)
+            idle = np.zeros(motion.inputs)
+            idle[: motion.motors] = last
+            given["x0"][:] = np.append(np.tile(np.append(start, idle), stages), start)
             self._started = True
         given["lbx"][:size] = given["ubx"][:size] = start
-        given["p"][0] = disturbance
+        given["p"][:] = disturbance
         self._call()
         given["x0"][:] = shifted(found["x"], width, size)
         given["lam_x0"][:] = shifted(found["lam_x"], width, size)
-        given["lam_g0"][:] = shifted(found["lam_g"], size + 3, 0)
-        return float(found["x"][size])
+        given["lam_g0"][:] = shifted(found["lam_g"], motion.height, 0)
+        return torques[: motion.motors].copy()
 
 
 def shifted(values: np.ndarray, width: int, tail: int) -> np.ndarray:
