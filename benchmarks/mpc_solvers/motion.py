@@ -101,6 +101,11 @@ class Motion:
         memory = [row @ before for row in self.rows.values()]
         return np.concatenate([ahead, later, np.ravel(last), *memory])
 
+    def idle(self, start: np.ndarray, last: np.ndarray) -> np.ndarray:
+        """Return states and inputs, stage by stage, of an arm that stays as it is under the last torques."""
+        inputs = np.append(last, np.zeros(self.inputs - self.motors))
+        return np.append(np.tile(np.append(start, inputs), self.problem.horizon), start)
+
     @cached_property
     def acceleration(self) -> Any:
         """``(z and z', torques) -> a``, a CasADi function of SX: all of the step that is not linear."""

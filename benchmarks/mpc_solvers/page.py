@@ -10,6 +10,14 @@ HEAD = (
     "|---:|---|---:|---:|---:|---:|---:|---:|",
 )
 
+SPACE_HEAD = (
+    "| joints | wall | solver | median (µs) | 99 % over median | times `rti` | times `rti-zero` | torque off by "
+    "| samples |",
+    "|---:|---|---|---:|---:|---:|---:|---:|---:|",
+)
+DERIVATIVES = "derivatives of all stages"
+"""Not a solver: what others spend of their time at least once."""
+
 
 def section(rows: Rows, growth: Rows, costs: Rows) -> str:
     """Return table and sentences.
@@ -47,17 +55,52 @@ def _limits(rows: Rows) -> list[str]:
 
 
 def _line(row: Mapping[str, object]) -> str:
+    return f"| {row['links']} | {_cells(row)} |"
+
+
+def _cells(row: Mapping[str, object]) -> str:
+    off, zero = row["torque_off"], row["over_zero"]
     cells = [
-        str(row["links"]),
         str(row["solver"]),
         _time(_number(row["median_us"])),
         f"{_number(row['p99_over_median']):.2f}",
         _short(_number(row["over_full"])),
-        _short(_number(row["over_zero"])),
-        f"{_number(row['torque_off']):.0e}".replace("e-0", "e-") if row["torque_off"] else "0",
+        "-" if zero is None else _short(_number(zero)),
+        f"{_number(off):.0e}".replace("e-0", "e-") if off else "0",
         str(row["samples"]),
     ]
-    return f"| {' | '.join(cells)} |"
+    return " | ".join(cells)
+
+
+def space_section(rows: Rows) -> str:
+    """Return table and sentences.
+
+    Parameters
+    ----------
+    rows
+        Of `mpc_space_speed.py`.
+    """
+    solvers = [row for row in rows if row["solver"] != DERIVATIVES]
+    lines = [f"| {row['joints']} | {'yes' if row['walled'] else 'no'} | {_cells(row)} |" for row in solvers]
+    found = ["\n".join([*SPACE_HEAD, *lines])]
+    for joints in dict.fromkeys(row["joints"] for row in rows):
+        own = [row for row in solvers if row["joints"] == joints]
+        others = [row for row in own if not str(row["solver"]).startswith("`")]
+        full, zero = (
+            min(_number(row[key]) for row in others if row[key] is not None)
+            for key in ("over_full", "over_zero")
+        )
+        once = [
+            _number(row["median_us"])
+            for row in rows
+            if row["joints"] == joints and row["solver"] == DERIVATIVES
+        ]
+        found.append(
+            f"With {joints} joints the fastest of the others takes {_short(full)} times the time of `rti` and "
+            f"{_short(zero)} times that of `rti-zero`; to compute the derivatives of all stages takes them "
+            f"{_time(min(once))} µs, once."
+        )
+    return "\n\n".join(found)
 
 
 def _time(microseconds: float) -> str:

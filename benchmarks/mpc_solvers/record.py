@@ -109,3 +109,7 @@ class Converged(RealTimeIteration):
             if np.abs(self._plan - before).max() < 1e-7:
                 break
         return command
+
+    def shift(self) -> None:
+        """Go on by a sample."""
+        self._shift()

@@ -160,10 +160,7 @@ class Sequential:
         size, width, torques = motion.size, motion.size + motion.inputs, found["x"][motion.size :]
         start = motion.start(state, last)
         if not self._started:
-            stages = len(given["x0"]) // width
-            idle = np.zeros(motion.inputs)
-            idle[: motion.motors] = last
-            given["x0"][:] = np.append(np.tile(np.append(start, idle), stages), start)
+            given["x0"][:] = motion.idle(start, last)
             self._started = True
         given["lbx"][:size] = given["ubx"][:size] = start
         given["p"][:] = disturbance
