@@ -166,7 +166,14 @@ def _figures(
 def parsed() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--out", type=Path, default=Path("out/bench"))
-    parser.add_argument("--joints", type=int, nargs="*", default=tuple(CELLS), choices=tuple(CELLS))
+    parser.add_argument(
+        "--joints",
+        type=int,
+        nargs="*",
+        default=tuple(CELLS),
+        choices=tuple(CELLS),
+        help="of the arms to measure; results of others in --out stay",
+    )
     parser.add_argument("--others", nargs="*", default=tuple(IN_SPACE), choices=tuple(IN_SPACE))
     parser.add_argument("--samples", type=int, default=1000, help="samples to give to other solvers at most")
     parser.add_argument("--compile", action="store_true", help="compile the other solvers, measure nothing")
@@ -193,14 +200,15 @@ def compile_all(joints: Sequence[int], names: Sequence[str]) -> None:
 
 
 def measured(given: argparse.Namespace, results: Path) -> Rows:
-    """Measure, and keep the results as they come."""
-    rows: Rows = []
+    """Measure, and keep the results as they come, beside those of other numbers of joints of earlier runs."""
+    before: Rows = json.loads(results.read_text()) if results.exists() else []
+    rows = [row for row in before if row["joints"] not in given.joints]
     with progress("measuring", total=2 * len(given.joints)) as advance:
         for joints in given.joints:
             for walled in KINDS:
                 rows += measure(joints, walled, asked(given.others, walled), given.samples, advance)
                 write_whole(results, json.dumps(plain(rows), indent=1, allow_nan=False) + "\n")
-    return rows
+    return sorted(rows, key=lambda row: int(str(row["joints"])))
 
 
 def main() -> None:
