@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,9 +37,10 @@ class SpacePlant(Plant):
     def __init__(self, scene: Scene, problem: ControlProblem, condition: Condition, seed: int = 0) -> None:
         super().__init__(scene, problem, condition, seed)
         kind = self.kernel.types["state"]
-        angle = kind.angle  # type: ignore[attr-defined]
-        self._reached = (kind * self.substeps)()
-        numbers = np.frombuffer(self._reached).reshape(self.substeps, -1)
+        angle = kind.angle
+        shared: Any = (kind * self.substeps)()
+        self._reached = shared
+        numbers = np.frombuffer(shared).reshape(self.substeps, -1)
         self._reached_angles = numbers[:, angle.offset // 8 : (angle.offset + angle.size) // 8]
 
     def _start(self) -> tuple[Array, Array]:
