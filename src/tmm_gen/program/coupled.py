@@ -49,7 +49,7 @@ class Place:
     solved: Ref
     prefix: str = ""
 
-    def before(self, kind: Kind) -> Ref:
+    def before(self, kind: Kind) -> sp.Expr:
         """Return the motion at the start of the step."""
         return self.history[Past(kind, 0)].at()
 
@@ -216,12 +216,15 @@ class Coupled:
         """Keep the accelerations, and write the motion at the end of the step by them."""
         trials = self.trials(place)
         new: dict[Kind, sp.Expr] = {
-            kind: self._by(place, kind, _weighed(self.spectrum.ends[kind], trials), sp.S.One)
-            for kind in ("q", "v", "a")
+            kind: self.at_end(place, kind) for kind in ("q", "v", "a")
         }
         found = update_assignments(place.history, new, lambda v: v.at(), place.prefix)
         kept = [Assign(v.at(), trial) for v, trial in zip(place.stages, trials, strict=True)]
         return [*found, *(a for a in kept if a.target.variable not in place.history.values())]
+
+    def at_end(self, place: Place, kind: Kind) -> sp.Expr:
+        """Return motion at the end of the step by the accelerations so far."""
+        return self._by(place, kind, _weighed(self.spectrum.ends[kind], self.trials(place)), sp.S.One)
 
     def _by(self, place: Place, kind: Kind, gained: sp.Expr, instant: sp.Expr) -> sp.Expr:
         """Return motion at an instant, in steps, by what accelerations add to it."""

@@ -28,26 +28,24 @@ def state_variable(past: Past, prefix: str, length: int | None) -> Variable:
     return Variable(f"{prefix}{name}{age}", Role.STATE, length, what + when, unit)
 
 
-def stage_accelerations(scheme: Scheme, newest: Variable, prefix: str, whose: str) -> tuple[Variable, ...]:
+def stage_accelerations(scheme: Scheme, newest: Variable, words: str) -> tuple[Variable, ...]:
     """Return where a coupled scheme keeps its stages' accelerations, by which the next step is predicted; else nothing.
 
     Parameters
     ----------
     newest : Variable
         Acceleration of the history: that of a stage at the end of the step.
-    prefix : str
-        Of names.
-    whose : str
-        With "of".
+    words : str
+        What it is.
     """
     if not scheme.coupled:
         return ()
     found = [
         Variable(
-            f"{prefix}acceleration_stage{index}",
+            f"{newest.name}_stage{index}",
             Role.STATE,
             newest.length,
-            f"acceleration {whose}, at stage {index} of the last step",
+            f"{words}, at stage {index} of the last step",
             newest.unit,
         )
         for index in range(1, len(scheme.stages) + 1)

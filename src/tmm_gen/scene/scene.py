@@ -128,9 +128,7 @@ class Scene:
     def integrators(self) -> tuple[str, ...]:
         """Names of the integrators that serve it: those whose stages are coupled do not serve all arms yet."""
         shafts = not self.model.linear and any(link.massless for link in self.links)
-        in_space = self.spatial is not None and (
-            self.spatial.base is not None or self.model.linearisation == "newton"
-        )
+        in_space = self.spatial is not None and self.model.linearisation == "newton"
         uncoupled = in_space or self.floats or shafts
         return tuple(method.name for method in methods.METHODS if not (method.coupled and uncoupled))
 

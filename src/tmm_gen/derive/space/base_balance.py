@@ -10,7 +10,14 @@ from functools import cache
 
 import sympy as sp
 
-from tmm_gen.derive.space.base_motion import FACING, OWN_FORCE, OWN_MOMENT, inner_turn
+from tmm_gen.derive.space.base_motion import (
+    FACING,
+    OWN_FORCE,
+    OWN_MOMENT,
+    PUSH,
+    TURN_ACCELERATION,
+    inner_turn,
+)
 from tmm_gen.derive.space.declaration import ACCEL, ALPHA, AXES, vector
 from tmm_gen.derive.space.equations import body_equations
 from tmm_gen.derive.space.inward import ARTICULATED, BIAS, CHANGE
@@ -24,6 +31,10 @@ TURNED = vector("base_turned")
 """Per unit of acceleration per unknown: what a sweep finds the base to do."""
 KINDS = [f"{what}_{axis}" for what in ("force", "moment") for axis in AXES]
 LEFT = [sp.Symbol(f"base_left_{kind}", real=True) for kind in KINDS]
+CHANGES = [sp.Symbol(f"base_change_{kind}", real=True) for kind in KINDS]
+"""Of the base's acceleration and angular acceleration, in its own axes."""
+LACKS = [sp.Symbol(f"base_lacks_{kind}", real=True) for kind in KINDS]
+"""What of each balance is left over at a known motion."""
 GIVES = [sp.Symbol(f"base_give_{kind}", real=True) for kind in KINDS]
 SHARES = {(i, k): sp.Symbol(f"base_share_{i + 1}{k + 1}", real=True) for i in range(6) for k in range(i)}
 
@@ -71,24 +82,64 @@ def answer_lines(gain: sp.Expr) -> tuple[Line, ...]:
     gain : sympy.Expr
         Acceleration per unknown.
     """
-    sheet, lines = Sheet(), list[Line]()
-    change: list[sp.Expr] = [sp.Integer(0)] * 6
-    for i in reversed(range(6)):
-        value = -GIVES[i] * LEFT[i] - sum(SHARES[k, i] * change[k] for k in range(i + 1, 6))
-        change[i] = sheet.named(f"base_change_{KINDS[i]}", value, "of the base's acceleration")
-    back = inner_turn(sheet)
-    moved = FACING.T * sp.Matrix(change[:3]) / gain
-    turned = back * sp.Matrix(change[3:]) / gain
+    *lines, update = change_lines()
+    sheet = Sheet()
+    moved, turned = by_coordinates(sheet, sp.Matrix(CHANGES))
     lines += sheet.lets
     lines += [
         Let(symbol, value, doc, unit)
         for symbols, values, doc, unit in (
-            (MOVED, moved, "what the sweep finds the base's place to do", "m/s^2"),
-            (TURNED, turned, "what the sweep finds the base's turn to do", "rad/s^2"),
+            (MOVED, moved / gain, "what the sweep finds the base's place to do", "m/s^2"),
+            (TURNED, turned / gain, "what the sweep finds the base's turn to do", "rad/s^2"),
         )
         for symbol, value in zip(symbols, values, strict=True)
     ]
-    return (*lines, Update(dict(zip(CHANGE, change, strict=True))))
+    return (*lines, update)
+
+
+def change_lines() -> tuple[Line, ...]:
+    """Return the change of the base's accelerations in its own axes, by what forces leave."""
+    lines: list[Line] = []
+    for i in reversed(range(6)):
+        value = -GIVES[i] * LEFT[i] - sum(SHARES[k, i] * CHANGES[k] for k in range(i + 1, 6))
+        lines.append(Let(CHANGES[i], value, "of the base's acceleration"))
+    return (*lines, Update(dict(zip(CHANGE, CHANGES, strict=True))))
+
+
+def by_coordinates(sheet: Sheet, change: sp.Matrix) -> tuple[sp.Matrix, sp.Matrix]:
+    """Return changes of the accelerations of place and turn by those in the base's axes; names go on a sheet.
+
+    Parameters
+    ----------
+    change : sympy.Matrix, (6,)
+        Of acceleration, then of angular acceleration.
+    """
+    back = inner_turn(sheet)
+    return FACING.T * sp.Matrix(change[:3]), back * sp.Matrix(change[3:])
+
+
+def lacking_lines() -> tuple[Line, ...]:
+    """Return what of each balance is left over at a known motion."""
+    forces = zip(LACKS, [*OWN_FORCE, *OWN_MOMENT], BIAS, strict=True)
+    return tuple(
+        Let(symbol, own + carried, "what the balance of the base lacks", "N" if i < 3 else "N m")
+        for i, (symbol, own, carried) in enumerate(forces)
+    )
+
+
+@cache
+def taking_up_lines(given: tuple[sp.Symbol, ...]) -> tuple[Line, ...]:
+    """Return the accelerations of place and turn with a change that was found in the base's axes.
+
+    Parameters
+    ----------
+    given : tuple of sympy.Symbol, (6,)
+        The change.
+    """
+    sheet = Sheet()
+    moved, turned = by_coordinates(sheet, sp.Matrix(given))
+    pairs = zip((*PUSH, *TURN_ACCELERATION), (*moved, *turned), strict=True)
+    return (*sheet.lets, Update({symbol: symbol + change for symbol, change in pairs}))
 
 
 def own_inertia(pattern: Pattern) -> sp.Matrix:

@@ -29,6 +29,8 @@ PUSH = vector("base_push")
 GRAVITY = vector("gravity")
 FACING = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"base_facing_{AXES[i]}{AXES[j]}", real=True))
 """Components in the base's axes by those in the world's."""
+SPINNING = vector("base_spinning")
+"""Angular acceleration, in its own axes."""
 FOUND = sp.Matrix(sp.symbols("base_found_w base_found_x base_found_y base_found_z", real=True))
 """Quaternion of the base."""
 _SLOWING = sp.Symbol("base_slowing", real=True)
@@ -238,17 +240,33 @@ def past_lines() -> tuple[Line, ...]:
         *sheet.lets,
         Update({s: 4 * v / (1 + relative[0]) for s, v in zip(PAST_TURN, relative[1:], strict=True)}),
     ]
-    then = dict(zip(TURN, PAST_TURN, strict=True))
+    return (*lines, *turning_lines(PAST_TURN, AGO_OMEGA, AGO_ALPHA, PAST_RATE, PAST_ACCELERATION))
+
+
+def turning_lines(
+    turn: sp.Matrix, omega: sp.Matrix, alpha: sp.Matrix, rate: sp.Matrix, acceleration: sp.Matrix
+) -> list[Line]:
+    """Return how a turn changes, by angular velocity and acceleration.
+
+    Parameters
+    ----------
+    turn, omega, alpha : sympy.Matrix
+        Symbols of what is known, (3,) each.
+    rate, acceleration : sympy.Matrix
+        Symbols of the first and the second derivative of the turn, which are set.
+    """
+    then = dict(zip(TURN, turn, strict=True))
     sheet = Sheet()
     back_turn = inner_turn(sheet)
-    lines += [Let(let.symbol, let.value.xreplace(then), let.doc, let.unit) for let in sheet.lets]
-    lines.append(Update(dict(zip(PAST_RATE, back_turn * AGO_OMEGA, strict=True))))
-    moving = {**then, **dict(zip(TURN_RATE, PAST_RATE, strict=True))}
+    lines: list[Line] = [
+        Let(let.symbol, let.value.xreplace(then), let.doc, let.unit) for let in sheet.lets
+    ]
+    lines.append(Update(dict(zip(rate, back_turn * omega, strict=True))))
+    moving = {**then, **dict(zip(TURN_RATE, rate, strict=True))}
     plain = inner_turn_values()
-    drift = (
-        sum((plain.diff(s) * rate for s, rate in zip(TURN, TURN_RATE, strict=True)), sp.zeros(3, 3))
-        * AGO_OMEGA
+    drift = sum(
+        (plain.diff(s) * changing for s, changing in zip(TURN, TURN_RATE, strict=True)), sp.zeros(3, 3)
     )
-    drift = drift.xreplace(moving).applyfunc(sp.expand)
-    lines.append(Update(dict(zip(PAST_ACCELERATION, back_turn * AGO_ALPHA + drift, strict=True))))
-    return tuple(lines)
+    drift = (drift * omega).xreplace(moving).applyfunc(sp.expand)
+    lines.append(Update(dict(zip(acceleration, back_turn * alpha + drift, strict=True))))
+    return lines

@@ -122,7 +122,7 @@ def _stages(row: Row, scheme: Scheme, history: dict[Past, Variable], prefix: str
     if row.about != "prediction":
         return ()
     of = "of the hub" if prefix else "of each link, base to tip"
-    return stage_accelerations(scheme, history[Past("a", 0)], prefix, of)
+    return stage_accelerations(scheme, history[Past("a", 0)], f"acceleration {of}")
 
 
 def _parameter(found: Parameter) -> Variable:

@@ -229,8 +229,13 @@ class _Assembly:
 
     def _held_first(self) -> tuple[Section, ...]:
         """Let the first step be predicted by the acceleration at the start."""
-        kept = tuple(first_stages(self.layout.stages, self.layout.state[Past("a", 0)]))
-        return (Section("the first step is predicted by this acceleration", kept),) if kept else ()
+        layout, base = self.layout, self.layout.base
+        kept = list(first_stages(layout.stages, layout.state[Past("a", 0)]))
+        if base:
+            for stages, history in ((base.place_stages, base.place), (base.alpha_stages, base.alpha)):
+                for component, found in stages.items():
+                    kept += first_stages(found, history[component][Past("a", 0)])
+        return (Section("the first step is predicted by this acceleration", tuple(kept)),) if kept else ()
 
     def _initialise(self) -> Routine:
         """Build the start: given motion, and the acceleration that satisfies the equations of motion."""

@@ -17,7 +17,6 @@ from tmm_gen.derive.integrators.relations import AffineMotion
 from tmm_gen.derive.space import base_motion as motion_of
 from tmm_gen.derive.space.base_balance import MOVED, TURNED
 from tmm_gen.derive.space.declaration import AXES, vector
-from tmm_gen.derive.station.lets import Line
 from tmm_gen.program.arm.binding import Binding, Scratch
 from tmm_gen.program.arm.motion import KNOWN_RATE, StartingPoint
 from tmm_gen.program.motion import in_order, update_assignments
@@ -137,23 +136,11 @@ class BaseStep:
                 value = sp.sympify(self.scheme.update[kind]).xreplace(own)
                 ends.append(Assign(_trial(c, kind), sp.expand(self._written(c, value))))
         found: list[Statement] = list(in_order([a for a in ends if a.target != a.value], "new_"))
-        found += self._bound(motion_of.end_lines())
+        found += _bound(self.values)
         for axis in AXES:
             new = {kind: _trial(f"place_{axis}", kind) for kind in KINDS}
             found += update_assignments(self.layout.place[axis], new, lambda v: v.ref, "")
-        kinds: tuple[tuple[Kind, sp.Matrix, dict[str, dict[Past, Variable]]], ...] = (
-            ("q", motion_of.NEW_QUATERNION, self.layout.quaternion),
-            ("v", motion_of.NEW_OMEGA, self.layout.omega),
-            ("a", motion_of.NEW_ALPHA, self.layout.alpha),
-        )
-        for kind, symbols, variables in kinds:
-            for symbol, history in zip(symbols, variables.values(), strict=True):
-                found += update_assignments(history, {kind: local(symbol.name)}, lambda v: v.ref, "")
-        return found
-
-    def _bound(self, lines: Iterable[Line]) -> list[Assign]:
-        ends = (*motion_of.NEW_QUATERNION, *motion_of.NEW_OMEGA, *motion_of.NEW_ALPHA)
-        return Binding(Scratch(), {**self.values, **{s: local(s.name) for s in ends}}).lines(lines)  # type: ignore[return-value]
+        return found + _turned_on(self.layout)
 
     def _written(self, coordinate: str, value: sp.Expr) -> sp.Expr:
         stages = {
@@ -176,6 +163,36 @@ class BaseStep:
         _, _, unit = _WORDS[what, kind]
         doc = f"{word.replace('_', ' ')} of the base at stage {index}, {axis}"
         return local(f"base_stage{index}_{word}_{axis}", doc, unit)
+
+
+def turned_on(layout: BaseLayout, values: Mapping[sp.Symbol, sp.Expr]) -> list[Statement]:
+    """Set quaternion, angular velocity and acceleration at the end of a step, by its turn there.
+
+    Parameters
+    ----------
+    values : mapping from sympy.Symbol to sympy.Expr
+        What the turn, its derivatives and the quaternion at the step's start stand for.
+    """
+    return [*_bound(values), *_turned_on(layout)]
+
+
+def _bound(values: Mapping[sp.Symbol, sp.Expr]) -> list[Statement]:
+    ends = (*motion_of.NEW_QUATERNION, *motion_of.NEW_OMEGA, *motion_of.NEW_ALPHA)
+    bound = Binding(Scratch(), {**values, **{s: local(s.name) for s in ends}})
+    return [*bound.lines(motion_of.end_lines())]
+
+
+def _turned_on(layout: BaseLayout) -> list[Statement]:
+    kinds: tuple[tuple[Kind, sp.Matrix, dict[str, dict[Past, Variable]]], ...] = (
+        ("q", motion_of.NEW_QUATERNION, layout.quaternion),
+        ("v", motion_of.NEW_OMEGA, layout.omega),
+        ("a", motion_of.NEW_ALPHA, layout.alpha),
+    )
+    found: list[Statement] = []
+    for kind, symbols, variables in kinds:
+        for symbol, history in zip(symbols, variables.values(), strict=True):
+            found += update_assignments(history, {kind: local(symbol.name)}, lambda v: v.ref, "")
+    return found
 
 
 def gains_of(motion: AffineMotion, step: Variable) -> dict[Kind, sp.Expr]:

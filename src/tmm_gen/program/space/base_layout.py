@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import Kind, Past
+from tmm_gen.derive.integrators.declaration import Kind, Past, Scheme
 from tmm_gen.derive.space.declaration import AXES, PAIRS
 from tmm_gen.derive.space.pattern import Pattern
+from tmm_gen.program.fields import stage_accelerations
 from tmm_gen.program.space.runs import body_pattern
 from tmm_gen.program.space.turns import quaternion_of
 from tmm_gen.program.variables import Role, Variable
@@ -37,6 +38,9 @@ class BaseLayout:
         Of its axes, and angular velocity and acceleration in them.
     given : dict from str to Variable
         What it starts from.
+    place_stages, alpha_stages : dict from str to tuple of Variable
+        Accelerations and angular accelerations at the stages of the last step, by component, where the next is
+        predicted by them.
     """
 
     pattern: Pattern
@@ -46,6 +50,8 @@ class BaseLayout:
     omega: History
     alpha: History
     given: dict[str, Variable]
+    place_stages: dict[str, tuple[Variable, ...]] = field(default_factory=dict)
+    alpha_stages: dict[str, tuple[Variable, ...]] = field(default_factory=dict)
 
     @property
     def lags(self) -> tuple[int, ...]:
@@ -75,7 +81,9 @@ class BaseLayout:
     def state(self) -> tuple[Variable, ...]:
         """All that is kept from step to step."""
         every = (self.place, self.quaternion, self.omega, self.alpha)
-        return tuple(v for histories in every for history in histories.values() for v in history.values())
+        kept = [v for histories in every for history in histories.values() for v in history.values()]
+        ahead = [v for stages in (self.place_stages, self.alpha_stages) for found in stages.values() for v in found]
+        return tuple(dict.fromkeys((*kept, *ahead)))
 
     @property
     def always(self) -> frozenset[str]:
@@ -105,13 +113,15 @@ def base_numbers(base: FreeBase) -> list[tuple[str, str, str, float]]:
     ]
 
 
-def base_layout(base: FreeBase, kept: Iterable[Past]) -> BaseLayout:
+def base_layout(base: FreeBase, kept: Iterable[Past], scheme: Scheme) -> BaseLayout:
     """Choose the variables of a base that floats.
 
     Parameters
     ----------
     kept : iterable of Past
         History that the integrator needs.
+    scheme : Scheme
+        What it steps with, but for the start.
 
     Raises
     ------
@@ -127,6 +137,15 @@ def base_layout(base: FreeBase, kept: Iterable[Past]) -> BaseLayout:
         ("v", "velocity", "m/s"),
         ("a", "acceleration", "m/s^2"),
     )
+    place: History = {
+        axis: {
+            Past(kind, lag): _state(word, axis, lag, f"{word} of the base along {axis} of the world", unit)
+            for lag in lags
+            for kind, word, unit in places
+        }
+        for axis in AXES
+    }
+    alpha = _turning("a", "alpha", "angular acceleration", "rad/s^2", lags)
     return BaseLayout(
         pattern=body_pattern(body),
         parameters={
@@ -134,16 +153,7 @@ def base_layout(base: FreeBase, kept: Iterable[Past]) -> BaseLayout:
             for name, doc, unit, value in base_numbers(base)
             if value != 0.0
         },
-        place={
-            axis: {
-                Past(kind, lag): _state(
-                    word, axis, lag, f"{word} of the base along {axis} of the world", unit
-                )
-                for lag in lags
-                for kind, word, unit in places
-            }
-            for axis in AXES
-        },
+        place=place,
         quaternion={
             part: {
                 Past("q", lag): _state("quaternion", part, lag, f"quaternion of the base's axes, {part}", "1")
@@ -152,9 +162,17 @@ def base_layout(base: FreeBase, kept: Iterable[Past]) -> BaseLayout:
             for part in PARTS
         },
         omega=_turning("v", "omega", "angular velocity", "rad/s", lags),
-        alpha=_turning("a", "alpha", "angular acceleration", "rad/s^2", lags),
+        alpha=alpha,
         given=_given(base),
+        place_stages=_at_stages(scheme, place),
+        alpha_stages=_at_stages(scheme, alpha),
     )
+
+
+def _at_stages(scheme: Scheme, histories: History) -> dict[str, tuple[Variable, ...]]:
+    """Return where a coupled scheme keeps accelerations at its stages."""
+    newest = {component: history[Past("a", 0)] for component, history in histories.items()}
+    return {component: stage_accelerations(scheme, v, v.doc) for component, v in newest.items()}
 
 
 def _turning(kind: Kind, name: str, words: str, unit: str, lags: Iterable[int]) -> History:

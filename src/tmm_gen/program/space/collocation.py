@@ -18,6 +18,7 @@ from tmm_gen.derive.space.inward import IMBALANCE, IMPEDANCE, OWN, TORQUE
 from tmm_gen.program.coupled import GAIN_OF, Coupled, Place, seen, trial_acceleration
 from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.passes.side_by_side import SideBySide
+from tmm_gen.program.space.base_collocation import BaseAtStages, values_at_stages
 from tmm_gen.program.space.bodies import Bodies
 from tmm_gen.program.space.collocation_walks import MendingWalks, ResidualWalks
 from tmm_gen.program.space.given import base_moved, given_end, given_motion
@@ -61,9 +62,22 @@ class SpaceCollocation:
 
     def sections(self) -> tuple[Section, ...]:
         """Return the whole step."""
-        begun = [*self._everywhere(self.coupled.ahead), *self._given({"a": self._trial})]
+        base = self._base
+        begun = [
+            *(base.ahead() if base else ()),
+            *self._everywhere(self.coupled.ahead),
+            *self._given({"a": self._trial}),
+        ]
         found = [Section("accelerations ahead on the last step's polynomial", tuple(begun))]
-        end = [*self._everywhere(self.coupled.finished), *given_end(self.layout, self.scheme)]
+        if base:
+            turning = Section("turns of the base that begin so", tuple(base.turning()))
+            found += self._side_by_side.sections([turning])
+        of_base = base.finished() if base else ()
+        end = [
+            *of_base,
+            *self._everywhere(self.coupled.finished),
+            *given_end(self.layout, self.scheme),
+        ]
         finish = Section("motion at the end of the step", tuple(end))
         if self.auto:
             title = f"iterations, until one changes next to nothing, {MOST_SWEEPS} at most"
@@ -71,7 +85,9 @@ class SpaceCollocation:
                 *self._iteration(first=True),
                 Section(title, (Repeat(MOST_SWEEPS),)),
                 *self._iteration(first=False),
-                self.coupled.judged(self._everywhere(self.coupled.turned)),
+                self.coupled.judged(
+                    [*(base.turned() if base else ()), *self._everywhere(self.coupled.turned)]
+                ),
             ]
         else:
             for index in range(self.iterations):
@@ -105,7 +121,9 @@ class SpaceCollocation:
             swept = [laws.impedances(impedance), laws.shared(torque), self._circles(), *swept]
         swept.append(laws.answers(mend.array(OWN), again=not first))
         where = "at the stages, and at the middle of the step" if first else "at the stages"
+        base = self._base
         motion = (
+            *(base.moved() if base else ()),
             *self._everywhere(lambda place: self._motion(place, middle=first)),
             *self._given({kind: self._at_stages(kind) for kind in KINDS}),
         )
@@ -114,8 +132,17 @@ class SpaceCollocation:
             *self._side_by_side.sections(at_stages),
             self._left_over(first=first),
             *self._apart.sections(swept),
+            *self._base_improved(),
             Section("improved accelerations of the stages", tuple(self._everywhere(self.coupled.improved))),
         ]
+
+    def _base_improved(self) -> list[Section]:
+        """Take up what the systems find a base that floats to do."""
+        if self._base is None:
+            return []
+        taken = Section("improved accelerations of the base", tuple(self._base.improved()))
+        given = Section("in its axes at each stage", tuple(self._base.given()))
+        return [given, *self._side_by_side.sections([taken])]
 
     def _left_over(self, *, first: bool) -> Section:
         """Put together for each system what torques joints, and first of all shafts, lack at the stages."""
@@ -123,7 +150,8 @@ class SpaceCollocation:
         stations = self.layout.stations
         stretches = [(0, stations)] if first else self.layout.tree.stretches
         loops = tuple(Loop(Order.OUTWARD, start, stop, tuple(body)) for start, stop in stretches)
-        return Section("what joints lack, in the system of each eigenvalue", loops)
+        of_base = self._base.left_over() if self._base else ()
+        return Section("what joints lack, in the system of each eigenvalue", (*loops, *of_base))
 
     def _circles(self) -> Section:
         """Return what sets the sines by which the sweeps go."""
@@ -137,12 +165,15 @@ class SpaceCollocation:
     def _side_by_side(self) -> SideBySide:
         """What has a value at each stage."""
         given = self.coupled.inputs_at_stages(self.layout.inputs, self._seen)
-        return SideBySide(self.coupled.stages, given, [self._at_stages(kind) for kind in KINDS])
+        of_base = self._base.at_stages if self._base else ()
+        variables = [*(self._at_stages(kind) for kind in KINDS), *of_base]
+        return SideBySide(self.coupled.stages, given, variables)
 
     @cached_property
     def _apart(self) -> SideBySide:
         """What has a value in the system of each eigenvalue."""
-        return SideBySide(self.coupled.systems, self.coupled.gains(), [self._mend.array(TORQUE)])
+        forces = [ref.variable for ref in self._base.forces] if self._base else []
+        return SideBySide(self.coupled.systems, self.coupled.gains(), [self._mend.array(TORQUE), *forces])
 
     @cached_property
     def _laws(self) -> JointLaws:
@@ -150,10 +181,18 @@ class SpaceCollocation:
 
     @cached_property
     def _over(self) -> ResidualWalks:
-        base = base_moved(self.layout, self._seen.__getitem__)
+        layout = self.layout
+        base = (
+            values_at_stages(layout.base) if layout.base else base_moved(layout, self._seen.__getitem__)
+        )
         motion = {MOTION[kind]: self._at_stages(kind) for kind in KINDS}
         gains = (sp.S.Zero, sp.S.Zero, ONE)
         return ResidualWalks(self.layout, self.bodies, motion, gains, self._laws.absent, base=base)
+
+    @cached_property
+    def _base(self) -> BaseAtStages | None:
+        base = self.layout.base
+        return BaseAtStages(base, self.coupled, self._over, self._mend) if base else None
 
     @cached_property
     def _mend(self) -> MendingWalks:

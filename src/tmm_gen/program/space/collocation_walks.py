@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import sympy as sp
 
+from tmm_gen.derive.space import base_balance
 from tmm_gen.derive.space.declaration import ANGLE
 from tmm_gen.derive.space.inward import BIAS, Inertial
 from tmm_gen.derive.space.outward import COSINE, SINE
 from tmm_gen.derive.space.pattern import Pattern
 from tmm_gen.derive.space.reaction import lacking_lines
+from tmm_gen.derive.station.lets import Line
 from tmm_gen.program.space.walks import SpaceWalks, outward
 from tmm_gen.program.statements import Assign, Loop, Order, Section
 
@@ -26,7 +29,10 @@ class ResidualWalks(SpaceWalks):
 
     def left_over(self) -> Section:
         """Return the way in, to what torque each joint lacks."""
-        lines = self.walk(Order.INWARD, lambda p: lacking_lines(outward(p, False)), tuple(BIAS))
+        at_base = self._of_base(lambda _: base_balance.lacking_lines())
+        lines = self.walk(
+            Order.INWARD, lambda p: lacking_lines(outward(p, False)), tuple(BIAS), base=at_base
+        )
         return Section("in: what the equations of the stages leave over", tuple(lines))
 
 
@@ -52,3 +58,7 @@ class MendingWalks(SpaceWalks):
     def _eliminated(self, pattern: Pattern, still: bool) -> Inertial:
         del still
         return mending(pattern)
+
+    def _answered(self) -> Sequence[Line]:
+        # in its own axes: each stage has others
+        return base_balance.change_lines()

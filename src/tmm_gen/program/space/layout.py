@@ -106,9 +106,9 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
     also = ", at each stage of the step" if stages > 1 else ""
     torques = {item.joint: item for item in arm.inputs if item.acts == "torque"}
     read = [torques[o.passing] for o in arm.outputs if o.quantity.read == "through" and o.passing in torques]
-    base = base_layout(arm.base, ordered) if arm.base is not None else None
+    base = base_layout(arm.base, ordered, integrator.main) if arm.base is not None else None
     state = {p: _state(p, n) for p in ordered}
-    of_joints = "of each joint, base to tips"
+    newest = state[Past("a", 0)]
     return SpaceLayout(
         name=name,
         title=title,
@@ -151,7 +151,7 @@ def layout_of(arm: SpatialArm, name: str, title: str, integrator: Integrator, st
             *(base.given.values() if base else ()),
         ),
         base=base,
-        stages=stage_accelerations(integrator.main, state[Past("a", 0)], "", of_joints),
+        stages=stage_accelerations(integrator.main, newest, newest.doc),
     )
 
 

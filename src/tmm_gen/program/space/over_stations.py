@@ -126,6 +126,17 @@ class OverStations:
         self._totals.add(symbol)
         return self._scratch.ref(symbol.name)
 
+    def at_base(self, symbol: sp.Symbol, words: tuple[str, str] = ("", "1")) -> Ref:
+        """Return the scratch scalar that stands for a symbol at a base that floats.
+
+        Parameters
+        ----------
+        words : tuple of (str, str)
+            What it is and its unit, where no lines say so.
+        """
+        self._scratch.described.setdefault(symbol.name, words)
+        return self._scratch.ref(symbol.name)
+
     def base_lines(self, lines: Sequence[Line]) -> list[Assign | Require]:
         """Return lines at a base that floats as statements."""
         return Binding(self._scratch, self._base_values).lines(lines)

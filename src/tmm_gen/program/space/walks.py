@@ -131,7 +131,7 @@ class SpaceWalks(OverStations):
                 Order.OUTWARD, lambda p: newton(p, still, self._gains).back, tuple(ALL_CHANGES), base=of_base
             )
             return Section("back out: what each joint does", tuple(lines))
-        at_base = self._of_base(lambda _: answer_lines(self._gain))
+        at_base = self._of_base(lambda _: self._answered())
         statements = self.walk(
             Order.OUTWARD, lambda p: self._eliminated(p, True).back, tuple(CHANGE), base=at_base
         )
@@ -140,6 +140,10 @@ class SpaceWalks(OverStations):
     def _eliminated(self, pattern: Pattern, still: bool) -> Inertial:
         """Return how a station's joint is eliminated."""
         return inertial(pattern, still, self._gain)
+
+    def _answered(self) -> Sequence[Line]:
+        """Return what a base that floats does."""
+        return answer_lines(self._gain)
 
     @property
     def _falls(self) -> tuple[bool, ...]:

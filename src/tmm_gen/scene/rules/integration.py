@@ -116,8 +116,6 @@ def steps_may_change(document: Document) -> Iterator[Finding]:
 def _not_carried(document: Document) -> Iterator[str]:
     """Yield the arms of a document that such methods do not go with."""
     if document.model.kind == "spatial":
-        if document.base.kind == "free":
-            yield "does not go with a base that floats yet"
         if document.model.linearisation == "newton":
             yield 'goes with linearisation = "inertial" in space, not with "newton"'
     elif document.model.kind == "planar":
