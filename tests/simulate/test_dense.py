@@ -87,7 +87,7 @@ def test_both_halves_of_a_step() -> None:
 @pytest.mark.parametrize("stages", [(0.2113248654051871, 0.7886751345948129), (0.1, 0.5, 0.9)])
 def test_the_polynomial_of_a_collocation_step(stages: tuple[float, ...]) -> None:
     """With s stages accelerations are right to order s, rates to one more, angles to two more."""
-    polynomial = StagePolynomial(stages, hub=False)
+    polynomial = StagePolynomial(stages, ("acceleration",))
     between = Dense(settled=False, stages=polynomial)
 
     def find(h: float, instants: np.ndarray) -> dict[str, np.ndarray]:

@@ -243,7 +243,7 @@ def test_accelerations_settle_behind_a_jump(pair: Scene, rho: float | None) -> N
 
 def test_stages_of_another_length_lie_on_the_polynomial_of_the_last_step(bent: Scene) -> None:
     nodes = (0.2, 0.7, 1.0)
-    polynomial = StagePolynomial(nodes, hub=False)
+    polynomial = StagePolynomial(nodes, ("acceleration",))
 
     def values(begin: float, span: float) -> Mapping[str, np.ndarray]:
         return {

@@ -3,8 +3,8 @@
 Angle, rate and acceleration at both ends of a step give a polynomial of fifth degree (Hermite). Where a method keeps
 accelerations of its stages instead, as Gauss's methods do, it is the polynomial by which the step itself is defined;
 and where accelerations belong to other instants, one of third degree. Steps that were taken in two halves have angles
-and rates at three instants, which give one of fifth degree whatever the method. Quaternions follow their rates in the
-same way and are made units again; heat climbs through its values and never falls.
+and rates at three instants, which give one of fifth degree whatever the method. Quaternions follow their derivatives in
+the same way and are made units again; heat climbs through its values and never falls.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ _AT_NODE = 1e-9
 _PLANES = "xyz"
 _QUATERNION = tuple(f"base_quaternion_{part}" for part in "wxyz")
 _OMEGA = tuple(f"base_omega_{x}" for x in _PLANES)
+_ALPHA = tuple(f"base_alpha_{x}" for x in _PLANES)
 _HEAT = "dissipated"
 _MOTIONS = (
     ("angle", "rate", "acceleration"),
@@ -77,23 +78,25 @@ class Dense:
                 data = names if self.settled and names[2] in step.values else names[:2]
                 moving = step.through(data)
                 found |= {name: v for name, v in zip(names, moving, strict=True) if name in step.values}
-        return step.completed(found, instants, times, states)
+        known = self.settled or self.stages is not None
+        return step.completed(found, instants, times, states, accelerations=known)
 
     def _collocated(self, stages: StagePolynomial, step: _Step) -> dict[str, Array]:
         """Return the motion of the polynomial that meets the equations at all stages of a step."""
         found: dict[str, Array] = {}
         once, twice = (stages.weights(step.shares, integrals) for integrals in (1, 2))
         there = [stages.weights(step.shares * node) for node in stages.nodes]
-        for prefix in stages.prefixes:
-            names = stages.names(prefix)
+        motions = {names[-1]: names[:-1] for names in _MOTIONS}
+        for newest in stages.moving:
+            names = stages.names(newest)
             solved = np.stack([step.values[name][-1] for name in names], axis=1)
-            angle, rate = (step.values[prefix + word][0] for word in ("angle", "rate"))
-            h = _over(step.spans, angle)
-            found[f"{prefix}angle"] = (
-                angle + _over(step.shares, angle) * h * rate + h**2 * _summed(twice, solved)
-            )
-            found[f"{prefix}rate"] = rate + h * _summed(once, solved)
-            found[f"{prefix}acceleration"] = _summed(stages.weights(step.shares), solved)
+            if newest in motions:  # else it is of a turn, which is no sum of these
+                q, v = motions[newest]
+                angle, rate = step.values[q][0], step.values[v][0]
+                h = _over(step.spans, angle)
+                found[q] = angle + _over(step.shares, angle) * h * rate + h**2 * _summed(twice, solved)
+                found[v] = rate + h * _summed(once, solved)
+            found[newest] = _summed(stages.weights(step.shares), solved)
             # stages of a step that ends there, along the same polynomial
             found |= {name: _summed(w, solved) for name, w in zip(names, there, strict=True)}
         return {name: values for name, values in found.items() if name in step.values}
@@ -121,10 +124,8 @@ def halved(instants: Array, times: Array, states: States) -> dict[str, Array]:
         found |= {
             name: v for name, v in zip(names, (angle, rate, acceleration), strict=True) if name in step.values
         }
-        if names[0] == "angle" or names[0] == f"{HUB}angle":
-            # what is read off accelerations at stages is then read off one that is the same at all of them
-            prefix = names[0].removesuffix("angle")
-            found |= {n: acceleration for n in step.values if n.startswith(f"{prefix}acceleration_stage")}
+        # what is read off accelerations at stages is then read off one that is the same at all of them
+        found |= {n: acceleration for n in step.values if n.startswith(f"{names[-1]}_stage")}
     return step.completed(found, instants, times, states)
 
 
@@ -165,10 +166,22 @@ class _Step:
         return hermite(self.shares, self.spans, [self.values[name] for name in names])
 
     def completed(
-        self, found: dict[str, Array], instants: Array, times: Array, states: States
+        self,
+        found: dict[str, Array],
+        instants: Array,
+        times: Array,
+        states: States,
+        *,
+        accelerations: bool = False,
     ) -> dict[str, Array]:
-        """Return the states with all that does not follow from angles and rates, and those at the nodes as they are."""
-        found |= self._turning()
+        """Return the states with all that does not follow from angles and rates, and those at the nodes as they are.
+
+        Parameters
+        ----------
+        accelerations : bool
+            Whether the angular accelerations of the states are those at their instants.
+        """
+        found |= self._turning(accelerations=accelerations)
         if _HEAT in states:
             found[_HEAT] = _climbing(instants, times, states[_HEAT])
         for name, values in self.values.items():
@@ -183,7 +196,7 @@ class _Step:
                 array[near] = self.values[name][number][near]
         return found
 
-    def _turning(self) -> dict[str, Array]:
+    def _turning(self, *, accelerations: bool) -> dict[str, Array]:
         """Return the turn of a base that floats in space."""
         if _QUATERNION[0] not in self.values:
             return {}
@@ -194,7 +207,16 @@ class _Step:
         signs = [np.where(np.sum(turns[0] * turn, axis=1) < 0.0, -1.0, 1.0)[:, None] for turn in turns]
         turns = [sign * turn for sign, turn in zip(signs, turns, strict=True)]
         rates = [_rate(turn, omega) for turn, omega in zip(turns, omegas, strict=True)]
-        turned, turning, _ = hermite(self.shares, self.spans, [turns, rates])
+        data = [turns, rates]
+        if accelerations and _ALPHA[0] in self.values:
+            alphas = [np.stack(a, axis=1) for a in zip(*(self.values[n] for n in _ALPHA), strict=True)]
+            data.append(
+                [
+                    _rate(rate, omega) + _rate(turn, alpha)
+                    for turn, rate, omega, alpha in zip(turns, rates, omegas, alphas, strict=True)
+                ]
+            )
+        turned, turning, _ = hermite(self.shares, self.spans, data)
         size = np.linalg.norm(turned, axis=1, keepdims=True)
         found = dict(zip(_QUATERNION, (turned / size).T.copy(), strict=True))
         # the angular velocity that turns it so; what changes its length is none

@@ -17,6 +17,9 @@ Array = NDArray[np.float64]
 HUB = "hub_"
 """What the names of a hub's own state begin with."""
 
+_FIRST = "_stage1"
+"""What the name of an acceleration at a step's first stage ends with."""
+
 
 @dataclass(frozen=True)
 class StagePolynomial:
@@ -26,23 +29,18 @@ class StagePolynomial:
     ----------
     nodes : tuple of float
         Instants of the stages, in steps from the start of the step.
-    hub : bool
-        Whether there is a hub besides the links.
+    moving : tuple of str
+        Names of the accelerations at the step's end: of joints, of a hub, of a base that floats.
     """
 
     nodes: tuple[float, ...]
-    hub: bool
+    moving: tuple[str, ...]
 
-    @property
-    def prefixes(self) -> tuple[str, ...]:
-        """What the names of whatever moves begin with."""
-        return ("", HUB) if self.hub else ("",)
-
-    def names(self, prefix: str) -> list[str]:
-        """Return the names of the accelerations at the stages, in order."""
-        found = [f"{prefix}acceleration_stage{k + 1}" for k in range(len(self.nodes))]
+    def names(self, newest: str) -> list[str]:
+        """Return the names of accelerations at the stages, in order, by that of the one at the end."""
+        found = [f"{newest}_stage{k + 1}" for k in range(len(self.nodes))]
         if self.nodes[-1] == 1.0:
-            found[-1] = f"{prefix}acceleration"
+            found[-1] = newest
         return found
 
     @cached_property
@@ -85,8 +83,8 @@ class StagePolynomial:
         """
         moved = self.weights(begin + span * np.array(self.nodes))
         found: dict[str, Array] = {}
-        for prefix in self.prefixes:
-            names = self.names(prefix)
+        for newest in self.moving:
+            names = self.names(newest)
             values = np.stack([np.asarray(state[name], float) for name in names])
             there = np.tensordot(moved, values, axes=1)
             found |= dict(zip(names, there, strict=True))
@@ -110,4 +108,5 @@ def stage_polynomial(scene: Scene, names: Iterable[str]) -> StagePolynomial | No
 
     scheme = integrator(scene.integrator.name, **scene.integrator.parameters).main
     nodes = tuple(float(stage.instant) for stage in scheme.stages)
-    return StagePolynomial(nodes, f"{HUB}acceleration_stage1" in kept)
+    moving = tuple(name.removesuffix(_FIRST) for name in sorted(kept) if name.endswith(_FIRST))
+    return StagePolynomial(nodes, moving)

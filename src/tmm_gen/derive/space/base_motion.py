@@ -262,11 +262,22 @@ def turning_lines(
         Let(let.symbol, let.value.xreplace(then), let.doc, let.unit) for let in sheet.lets
     ]
     lines.append(Update(dict(zip(rate, back_turn * omega, strict=True))))
-    moving = {**then, **dict(zip(TURN_RATE, rate, strict=True))}
-    plain = inner_turn_values()
-    drift = sum(
-        (plain.diff(s) * changing for s, changing in zip(TURN, TURN_RATE, strict=True)), sp.zeros(3, 3)
-    )
-    drift = (drift * omega).xreplace(moving).applyfunc(sp.expand)
+    sheet = Sheet()
+    dots = [
+        sheet.named(f"base_turning_{word}", left.dot(right))
+        for word, left, right in (("out", turn, rate), ("along", turn, omega), ("about", rate, omega))
+    ]
+    drift = _drifting(turn, rate, omega, dots)
+    plain = sum((inner_turn_values().diff(s) * r for s, r in zip(TURN, rate, strict=True)), sp.zeros(3, 3))
+    exact = (plain.xreplace(then) * omega).applyfunc(sp.expand)
+    if (_drifting(turn, rate, omega, [let.value for let in sheet.lets]) - exact).applyfunc(sp.expand) != sp.zeros(3, 1):
+        raise AssertionError("a turn's rate by the angular velocity changes otherwise")
+    lines += sheet.lets
     lines.append(Update(dict(zip(acceleration, back_turn * alpha + drift, strict=True))))
     return lines
+
+
+def _drifting(turn: sp.Matrix, rate: sp.Matrix, omega: sp.Matrix, dots: list[sp.Expr]) -> sp.Matrix:
+    """Return what changes the rate of a turn where the angular velocity stands, by three products of these, (3,)."""
+    out, along, about = dots
+    return rate.cross(omega) / 2 + (along * rate + about * turn - out * omega) / 8
