@@ -41,6 +41,9 @@ def motion(times: np.ndarray) -> dict[str, np.ndarray]:
         "base_omega_x": _OMEGA[1] * np.cos(phase[:, 1]),
         "base_omega_y": zero.copy(),
         "base_omega_z": zero.copy(),
+        "base_alpha_x": -(_OMEGA[1] ** 2) * np.sin(phase[:, 1]),
+        "base_alpha_y": zero.copy(),
+        "base_alpha_z": zero.copy(),
         "dissipated": 2.0 * first + np.sin(2.0 * first),
     }
 
@@ -67,7 +70,7 @@ def test_one_step_alone(settled: bool, orders: tuple[int, ...]) -> None:
     for name, order in zip(("angle", "rate", "acceleration"), orders, strict=True):
         assert slope(find, name) == pytest.approx(order, abs=0.4), name
     assert slope(find, "base_place_x") == pytest.approx(orders[0], abs=0.4)
-    assert slope(find, "base_quaternion_x") == pytest.approx(4, abs=0.4)
+    assert slope(find, "base_quaternion_x") == pytest.approx(orders[0], abs=0.4)
 
 
 def test_both_halves_of_a_step() -> None:
@@ -86,24 +89,25 @@ def test_both_halves_of_a_step() -> None:
 
 @pytest.mark.parametrize("stages", [(0.2113248654051871, 0.7886751345948129), (0.1, 0.5, 0.9)])
 def test_the_polynomial_of_a_collocation_step(stages: tuple[float, ...]) -> None:
-    """With s stages accelerations are right to order s, rates to one more, angles to two more."""
-    polynomial = StagePolynomial(stages, ("acceleration",))
+    """With s stages accelerations are right to order s, rates to one more, angles to two more; turns as angles are."""
+    polynomial = StagePolynomial(stages, ("acceleration", *(f"base_alpha_{axis}" for axis in "xyz")))
     between = Dense(settled=False, stages=polynomial)
 
     def find(h: float, instants: np.ndarray) -> dict[str, np.ndarray]:
         times = nodes(h)
         states = motion(times)
-        del states["acceleration"]
-        for name, node in zip(polynomial.names(""), stages, strict=True):
-            states[name] = motion(times - h + node * h)["acceleration"]
+        for newest in polynomial.moving:
+            del states[newest]
+            for name, node in zip(polynomial.names(newest), stages, strict=True):
+                states[name] = motion(times - h + node * h)[newest]
         found = between.at(instants, times, states)
         # what an output would read: the polynomial at the end of the step that the stages are of
         weights = polynomial.weights(1.0)[0]
-        parts = zip(weights, polynomial.names(""), strict=True)
+        parts = zip(weights, polynomial.names("acceleration"), strict=True)
         return {**found, "acceleration": sum(w * found[name] for w, name in parts)}
 
     s = len(stages)
-    for name, order in (("angle", s + 2), ("rate", s + 1)):
+    for name, order in (("angle", s + 2), ("rate", s + 1), ("base_quaternion_x", s + 2)):
         assert slope(find, name) == pytest.approx(order, abs=0.5), name
     # in steps' ends accelerations are the polynomial's own too, one order less than in between nodes of Gauss
     assert slope(find, "acceleration") == pytest.approx(s, abs=0.5)

@@ -78,8 +78,19 @@ class Dense:
                 data = names if self.settled and names[2] in step.values else names[:2]
                 moving = step.through(data)
                 found |= {name: v for name, v in zip(names, moving, strict=True) if name in step.values}
-        known = self.settled or self.stages is not None
-        return step.completed(found, instants, times, states, accelerations=known)
+        return step.completed(found, instants, times, states, self._spinning(step))
+
+    def _spinning(self, step: _Step) -> list[Array] | None:
+        """Return angular accelerations of a base that floats at both ends of the steps, (r, 3); None where unknown."""
+        if self.settled and _ALPHA[0] in step.values:
+            return step.gathered(_ALPHA)
+        if self.stages is None or _ALPHA[0] not in self.stages.moving:
+            return None
+        solved = [np.stack([step.values[n][-1] for n in self.stages.names(a)], axis=1) for a in _ALPHA]
+        return [
+            np.stack([values @ self.stages.weights(end)[0] for values in solved], axis=1)
+            for end in (0.0, 1.0)
+        ]
 
     def _collocated(self, stages: StagePolynomial, step: _Step) -> dict[str, Array]:
         """Return the motion of the polynomial that meets the equations at all stages of a step."""
@@ -171,17 +182,16 @@ class _Step:
         instants: Array,
         times: Array,
         states: States,
-        *,
-        accelerations: bool = False,
+        alphas: list[Array] | None = None,
     ) -> dict[str, Array]:
         """Return the states with all that does not follow from angles and rates, and those at the nodes as they are.
 
         Parameters
         ----------
-        accelerations : bool
-            Whether the angular accelerations of the states are those at their instants.
+        alphas : list of array, (r, 3), optional
+            Angular accelerations at the nodes, of a base that floats.
         """
-        found |= self._turning(accelerations=accelerations)
+        found |= self._turning(alphas)
         if _HEAT in states:
             found[_HEAT] = _climbing(instants, times, states[_HEAT])
         for name, values in self.values.items():
@@ -196,20 +206,20 @@ class _Step:
                 array[near] = self.values[name][number][near]
         return found
 
-    def _turning(self, *, accelerations: bool) -> dict[str, Array]:
+    def gathered(self, names: Sequence[str]) -> list[Array]:
+        """Return components at the nodes together, (r, components) each."""
+        return [np.stack(parts, axis=1) for parts in zip(*(self.values[n] for n in names), strict=True)]
+
+    def _turning(self, alphas: list[Array] | None) -> dict[str, Array]:
         """Return the turn of a base that floats in space."""
         if _QUATERNION[0] not in self.values:
             return {}
-        turns = [
-            np.stack(parts, axis=1) for parts in zip(*(self.values[n] for n in _QUATERNION), strict=True)
-        ]
-        omegas = [np.stack(parts, axis=1) for parts in zip(*(self.values[n] for n in _OMEGA), strict=True)]
+        turns, omegas = self.gathered(_QUATERNION), self.gathered(_OMEGA)
         signs = [np.where(np.sum(turns[0] * turn, axis=1) < 0.0, -1.0, 1.0)[:, None] for turn in turns]
         turns = [sign * turn for sign, turn in zip(signs, turns, strict=True)]
         rates = [_rate(turn, omega) for turn, omega in zip(turns, omegas, strict=True)]
         data = [turns, rates]
-        if accelerations and _ALPHA[0] in self.values:
-            alphas = [np.stack(a, axis=1) for a in zip(*(self.values[n] for n in _ALPHA), strict=True)]
+        if alphas is not None:
             data.append(
                 [
                     _rate(rate, omega) + _rate(turn, alpha)
