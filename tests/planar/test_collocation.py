@@ -199,7 +199,6 @@ def test_what_does_not_go_with_them_is_told_with_a_remedy(
     ("path", "told"),
     [
         ("scenes/cube.toml", "does not go with a base that floats yet"),
-        ("examples/space/satellite.toml", "does not go with a base that floats yet"),
         ("scenes/elbow.toml", "does not go with elastic gears yet"),
     ],
 )

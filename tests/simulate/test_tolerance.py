@@ -248,7 +248,9 @@ def test_stages_of_another_length_lie_on_the_polynomial_of_the_last_step(bent: S
     def values(begin: float, span: float) -> Mapping[str, np.ndarray]:
         return {
             name: np.array([3.0 - t + 2.0 * t**2, t**2])
-            for name, t in zip(polynomial.names("acceleration"), (begin + span * c for c in nodes), strict=True)
+            for name, t in zip(
+                polynomial.names("acceleration"), (begin + span * c for c in nodes), strict=True
+            )
         }
 
     found = polynomial.over(values(0.0, 1.0), 1.0 - 1.7, 1.7)

@@ -21,10 +21,14 @@ SATELLITE = Path(__file__).parents[2] / "examples" / "space" / "satellite.toml"
 METHODS = {
     "newmark": (SpaceChoices(1e-3, iterations=3), 2),
     "sdirk4": (SpaceChoices(1e-3, iterations=3, held=True), 4),
+    "radau3": (SpaceChoices(1e-3, iterations=3), 5),
+    "gauss2": (SpaceChoices(1e-3, iterations=2), 4),
 }
 
 
-@pytest.mark.parametrize(("name", "step"), [("newmark", 0.02), ("sdirk4", 0.04)])
+@pytest.mark.parametrize(
+    ("name", "step"), [("newmark", 0.02), ("sdirk4", 0.04), ("radau3", 0.08), ("gauss2", 0.04)]
+)
 def test_dzhanibekov(name: str, step: float) -> None:
     """A body turns about its middle axis, flips and flips back; its momentum stands, and its energy stays.
 
@@ -51,7 +55,7 @@ def test_dzhanibekov(name: str, step: float) -> None:
     assert np.all(np.array(fine) < (3e-4 if order == 2 else 1e-6)), drifts
 
 
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", ["newmark", "sdirk4", "radau3"])
 def test_momentum_is_kept(name: str) -> None:
     """The satellite tumbles, and its panels, bent at first, swing; another arm does by steps of more stages."""
     choices, order = METHODS[name]
@@ -59,7 +63,7 @@ def test_momentum_is_kept(name: str) -> None:
     world, until = AfloatArm(arm), 0.2
     module = package_of(arm, name, choices)
     drifts = []
-    for step in (4e-3, 2e-3):
+    for step in (8e-3, 4e-3) if order == 5 else (4e-3, 2e-3):
         states = stepped(module, step, round(until / step))
         y, u = (np.array(values) for values in zip(*map(coordinates, states), strict=True))
         found = np.hstack(world.momentum(y, u))

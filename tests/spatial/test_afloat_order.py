@@ -38,11 +38,17 @@ def generated(arm: SpatialArm, name: str, choices: SpaceChoices) -> ModuleType:
         ("sdirk4", replace(THRICE, held=True), 4),
         ("sdirk4", replace(ONCE, exact=True, held=True), 4),
         ("park", TWICE, 2),
+        ("radau3", TWICE, 4),
+        ("radau3", THRICE, 5),
+        ("gauss2", TWICE, 4),
     ],
-    ids=["newmark", "newmark, exact", "sdirk4", "sdirk4, exact", "park"],
+    ids=["newmark", "newmark, exact", "sdirk4", "sdirk4, exact", "park", "radau3", "radau3, two", "gauss2"],
 )
 def test_order(name: str, choices: SpaceChoices, order: int) -> None:
-    """Park's method looks back over two steps, which are turned to where each step begins."""
+    """Park's method looks back over two steps, which are turned to where each step begins.
+
+    Where stages are solved at once, it takes what the last step left of angular accelerations to begin so well.
+    """
     arm = bare(3, 2 if name == "newmark" else 1)
     fitted, _ = fitted_order(arm, generated(arm, name, choices))
     assert fitted == pytest.approx(order, abs=SLOPE)

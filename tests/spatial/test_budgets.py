@@ -170,6 +170,19 @@ def test_a_base_that_floats(kind: str) -> None:
         assert (more[0], more[1] - more[0], more[2]) == FLOATS[kind]
 
 
+FLOATS_AT_ONCE = (3228, 1696)
+"""The same of `gauss2` on general links: one iteration, and each further one."""
+
+
+def test_a_base_that_floats_where_stages_are_solved_at_once() -> None:
+    def taken(iterations: int, base: FreeBase | None) -> int:
+        arm = replace(links(4, QUARTER), base=base)
+        return count_routine(program_of(arm, "gauss2", SpaceChoices(1e-3, iterations=iterations)).main).total
+
+    once, twice = (taken(count, FreeBase(BODY)) - taken(count, None) for count in (1, 2))
+    assert (once, twice - once) == FLOATS_AT_ONCE
+
+
 def geared(count: int, *, elastic: bool) -> SpatialArm:
     """Return general links on motors, with a gear each that is rigid or not."""
     joints: list[Revolute] = []

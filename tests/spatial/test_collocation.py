@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.spatial.kernels import HEADED, package_of, program_of
+from support.spatial.afloat import random_afloat, tumbling
+from support.spatial.kernels import HEADED, package_of, program_of, stepped
 from support.spatial.random_arms import random_arm
 
 from tmm_gen.derive.space.inward import CARRIED
@@ -113,7 +114,11 @@ def test_slope_is_the_derived_order(name: str, iterations: int, order: int) -> N
 
 
 @pytest.mark.compiler
-@pytest.mark.parametrize(("arm", "name"), [(loaded(), "radau3"), (rope(), "gauss2")], ids=["loaded", "rope"])
+@pytest.mark.parametrize(
+    ("arm", "name"),
+    [(loaded(), "radau3"), (rope(), "gauss2"), (random_afloat(4, 1), "gauss2")],
+    ids=["loaded", "rope", "afloat"],
+)
 def test_backends_take_the_same_step(arm: SpatialArm, name: str) -> None:
     program = program_of(arm, name, SpaceChoices(1e-3, iterations=2))
     module = numpy_module(HEADED, program)
@@ -121,11 +126,13 @@ def test_backends_take_the_same_step(arm: SpatialArm, name: str) -> None:
     vectors = list(reached_vectors(module, program, 2, relative=True))
     native = native_step(compile_kernel(program, HEADED, flags=("-O0",)), program)
     assert largest_difference(ours, native, vectors) < TOLERANCE
-    if name == "radau3":
+    if name == "radau3" or arm.base:
         models = casadi_step(casadi_module(HEADED, program), program)
         assert largest_difference(ours, models, vectors) < TOLERANCE
-    else:  # in loops, like joints as one
-        assert any((s.start, s.stop) == (1, 4) for s in program.main.statements() if isinstance(s, Loop))
+    if name == "gauss2":
+        # in loops, like joints as one
+        loops = {(s.start, s.stop) for s in program.main.statements() if isinstance(s, Loop)}
+        assert arm.base or (1, 4) in loops
         halved = HEADED.replace(**{"emit.real": "float32"})
         single = native_step(compile_kernel(program, halved, flags=("-O0",)), program)
         assert TOLERANCE < largest_difference(ours, single, vectors) < SINGLE
@@ -143,6 +150,21 @@ def test_runs_iterate_as_often_as_it_takes() -> None:
     off, left = (float(np.max(np.abs(o["elbow"][1:] - exact))) for o in (found.outputs, once.outputs))
     assert off < 1e-5
     assert off < 0.3 * left
+
+
+def test_a_base_alone_is_iterated_about() -> None:
+    """No joint moves: what the base turns by is what tells that two iterations are not enough."""
+    arm = tumbling((1.0, 2.0, 3.0))
+    twice, often, auto = (
+        stepped(package_of(arm, "radau2", choices), 0.1, 5)[-1].base_omega_x
+        for choices in (
+            SpaceChoices(0.1, iterations=2),
+            SpaceChoices(0.1, iterations=8),
+            SpaceChoices(0.1, auto=True),
+        )
+    )
+    assert auto == pytest.approx(often, rel=1e-7)
+    assert twice != pytest.approx(often, rel=1e-4)
 
 
 def test_what_a_proof_needs_is_checked() -> None:

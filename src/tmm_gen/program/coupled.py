@@ -215,9 +215,7 @@ class Coupled:
     def finished(self, place: Place) -> list[Assign]:
         """Keep the accelerations, and write the motion at the end of the step by them."""
         trials = self.trials(place)
-        new: dict[Kind, sp.Expr] = {
-            kind: self.at_end(place, kind) for kind in ("q", "v", "a")
-        }
+        new: dict[Kind, sp.Expr] = {kind: self.at_end(place, kind) for kind in ("q", "v", "a")}
         found = update_assignments(place.history, new, lambda v: v.at(), place.prefix)
         kept = [Assign(v.at(), trial) for v, trial in zip(place.stages, trials, strict=True)]
         return [*found, *(a for a in kept if a.target.variable not in place.history.values())]

@@ -194,9 +194,18 @@ sensitivities = true
 """
 
 
-def test_stages_solved_at_once_in_space_have_the_slopes_that_differences_show() -> None:
+AFLOAT = """kind = "free"
+[[body]]
+name = "hub"
+on = "base"
+mass = 1.0
+inertia = [1e-2, 2e-2, 3e-2]"""
+
+
+@pytest.mark.parametrize("base", ['kind = "clamp"', AFLOAT], ids=["clamp", "afloat"])
+def test_stages_solved_at_once_in_space_have_the_slopes_that_differences_show(base: str) -> None:
     """A complex sweep and a second iteration by its factors, behind an elastic gear; nothing is compiled."""
-    program = build_program(parse_scene(SOLVED_AT_ONCE))
+    program = build_program(parse_scene(SOLVED_AT_ONCE.replace('kind = "clamp"', base)))
     found = program.sensitivities
     sizes = [sum(v.length or 1 for v in group) for group in (program.state, program.inputs)]
     random = np.random.default_rng(9)

@@ -258,9 +258,7 @@ def turning_lines(
     then = dict(zip(TURN, turn, strict=True))
     sheet = Sheet()
     back_turn = inner_turn(sheet)
-    lines: list[Line] = [
-        Let(let.symbol, let.value.xreplace(then), let.doc, let.unit) for let in sheet.lets
-    ]
+    lines: list[Line] = [Let(let.symbol, let.value.xreplace(then), let.doc, let.unit) for let in sheet.lets]
     lines.append(Update(dict(zip(rate, back_turn * omega, strict=True))))
     sheet = Sheet()
     dots = [
@@ -270,7 +268,9 @@ def turning_lines(
     drift = _drifting(turn, rate, omega, dots)
     plain = sum((inner_turn_values().diff(s) * r for s, r in zip(TURN, rate, strict=True)), sp.zeros(3, 3))
     exact = (plain.xreplace(then) * omega).applyfunc(sp.expand)
-    if (_drifting(turn, rate, omega, [let.value for let in sheet.lets]) - exact).applyfunc(sp.expand) != sp.zeros(3, 1):
+    if (_drifting(turn, rate, omega, [let.value for let in sheet.lets]) - exact).applyfunc(
+        sp.expand
+    ) != sp.zeros(3, 1):
         raise AssertionError("a turn's rate by the angular velocity changes otherwise")
     lines += sheet.lets
     lines.append(Update(dict(zip(acceleration, back_turn * alpha + drift, strict=True))))

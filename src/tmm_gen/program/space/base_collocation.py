@@ -89,7 +89,13 @@ class BaseAtStages:
     @cached_property
     def at_stages(self) -> tuple[Variable, ...]:
         """What has a value at each stage, besides what follows from it."""
-        symbols = (*motion_of.PUSH, *(s for found in _TURN.values() for s in found), *_OMEGA, *_ALPHA, *_GIVEN)
+        symbols = (
+            *motion_of.PUSH,
+            *(s for found in _TURN.values() for s in found),
+            *_OMEGA,
+            *_ALPHA,
+            *_GIVEN,
+        )
         return tuple(_REFS[symbol].variable for symbol in symbols)
 
     def __post_init__(self) -> None:

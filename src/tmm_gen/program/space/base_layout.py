@@ -82,7 +82,9 @@ class BaseLayout:
         """All that is kept from step to step."""
         every = (self.place, self.quaternion, self.omega, self.alpha)
         kept = [v for histories in every for history in histories.values() for v in history.values()]
-        ahead = [v for stages in (self.place_stages, self.alpha_stages) for found in stages.values() for v in found]
+        ahead = [
+            v for stages in (self.place_stages, self.alpha_stages) for found in stages.values() for v in found
+        ]
         return tuple(dict.fromkeys((*kept, *ahead)))
 
     @property

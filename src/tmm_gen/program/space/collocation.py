@@ -182,9 +182,7 @@ class SpaceCollocation:
     @cached_property
     def _over(self) -> ResidualWalks:
         layout = self.layout
-        base = (
-            values_at_stages(layout.base) if layout.base else base_moved(layout, self._seen.__getitem__)
-        )
+        base = values_at_stages(layout.base) if layout.base else base_moved(layout, self._seen.__getitem__)
         motion = {MOTION[kind]: self._at_stages(kind) for kind in KINDS}
         gains = (sp.S.Zero, sp.S.Zero, ONE)
         return ResidualWalks(self.layout, self.bodies, motion, gains, self._laws.absent, base=base)

@@ -30,9 +30,7 @@ class ResidualWalks(SpaceWalks):
     def left_over(self) -> Section:
         """Return the way in, to what torque each joint lacks."""
         at_base = self._of_base(lambda _: base_balance.lacking_lines())
-        lines = self.walk(
-            Order.INWARD, lambda p: lacking_lines(outward(p, False)), tuple(BIAS), base=at_base
-        )
+        lines = self.walk(Order.INWARD, lambda p: lacking_lines(outward(p, False)), tuple(BIAS), base=at_base)
         return Section("in: what the equations of the stages leave over", tuple(lines))
 
 
