@@ -23,7 +23,7 @@ from tmm_gen.emit.c import pair as arithmetic
 from tmm_gen.emit.c.bind import bind
 from tmm_gen.emit.c.circle import PAIR_ERROR, PairCircle
 from tmm_gen.emit.c.lower import lower
-from tmm_gen.emit.c.pair import Pair, PairPrinter, functions_in, minus, over, plus, times
+from tmm_gen.emit.c.pair import Pair, PairPrinter, functions_in, minus, over, over_root, plus, times
 from tmm_gen.emit.templates import _environment
 from tmm_gen.native import compile_kernel
 from tmm_gen.native.compiler import compile_library
@@ -51,6 +51,8 @@ def test_operations_keep_48_bits(x: float, y: float) -> None:
     assert abs(_exact(minus(a, b)) - (p - q)) <= ROUNDOFF * size
     assert abs(_exact(times(a, b)) - p * q) <= ROUNDOFF * abs(p * q)
     assert abs(_exact(over(a, b)) - p / q) <= 4 * ROUNDOFF * abs(p / q)
+    root = _exact(over_root(b if q > 0 else Pair(-b.high, -b.low)))
+    assert abs(root**2 * abs(q) - 1) <= 8 * ROUNDOFF
 
 
 @given(moderate)
@@ -73,7 +75,8 @@ pair call(int which, pair a, pair b);
 pair turned(pair angle, int which);
 pair call(int which, pair a, pair b)
 {{
-    return which == 0 ? plus(a, b) : which == 1 ? minus(a, b) : which == 2 ? times(a, b) : over(a, b);
+    return which == 0 ? plus(a, b) : which == 1 ? minus(a, b) : which == 2 ? times(a, b)
+        : which == 3 ? over(a, b) : over_root(times(a, a));
 }}
 pair turned(pair angle, int which)
 {{
@@ -87,7 +90,7 @@ pair turned(pair angle, int which)
 def library() -> Any:
     """Compile the template's own text."""
     module: Any = _environment().get_template("c/pair.jinja").module
-    names = functions_in("plus( minus( times( over( pair_of( scaled(")
+    names = functions_in("plus( minus( times( over( over_root( pair_of( scaled(")
     text = HARNESS.format(
         functions=module.functions(names, False), circle=module.circle(PairCircle(COMPENSATED), False)
     )
@@ -97,10 +100,11 @@ def library() -> Any:
 
 
 @pytest.mark.compiler
-@given(moderate, moderate, st.integers(0, 3))
+@given(moderate, moderate, st.integers(0, 4))
 @settings(deadline=None)
 def test_python_has_the_bits_of_c(x: float, y: float, which: int) -> None:
-    mine = (plus, minus, times, over)[which](Pair.of(x), Pair.of(y))
+    a, b = Pair.of(x), Pair.of(y)
+    mine = (plus, minus, times, over)[which](a, b) if which < 4 else over_root(times(a, a))
     its = library().call(which, PairStructure.of(x), PairStructure.of(y))
     assert (float(mine.high), float(mine.low)) == (its.high, its.low)
 

@@ -36,6 +36,7 @@ _CALLS = {
     "scaled": (),
     "times": (),
     "over": ("times", "minus", "pair_of"),
+    "over_root": ("times", "minus", "pair_of"),
     "pair_of": (),
 }
 """Functions of pairs in C, and which of them each calls."""
@@ -107,6 +108,8 @@ class PairPrinter(CPrinter):
             return self._quotient_of([], [e.base] * -int(e.exp)) if e.exp < 0 else self._powers(e)
         if isinstance(e, sp.sin | sp.cos):
             return self.call(e)
+        if e.is_Pow and e.exp == -sp.S.Half:
+            return f"over_root({self.text(e.base)})"
         raise TypeError(f"no way to write {sp.srepr(e)} in pairs")
 
     def _folded_sum(self, e: sp.Expr) -> str:
@@ -214,6 +217,14 @@ def over(a: Pair, b: Pair) -> Pair:
     quotient = a.high / b.high
     rest = minus(a, times(b, Pair(quotient, np.float32(0.0))))
     return _normalised(quotient, rest.high / b.high)
+
+
+def over_root(a: Pair) -> Pair:
+    """Return one over the root."""
+    rough = np.float32(1.0) / np.sqrt(a.high)
+    square = times(Pair(rough, np.float32(0.0)), Pair(rough, np.float32(0.0)))
+    rest = minus(Pair.of(1.0), times(a, square))
+    return _normalised(rough, np.float32(0.5) * rough * rest.high)
 
 
 def _normalised(high: Any, low: Any) -> Pair:
