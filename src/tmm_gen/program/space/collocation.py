@@ -64,21 +64,14 @@ class SpaceCollocation:
         """Return the whole step."""
         base = self._base
         begun = [
-            *(base.ahead() if base else ()),
             *self._everywhere(self.coupled.ahead),
             *self._given({"a": self._trial}),
+            *(base.ahead() if base else ()),
         ]
         found = [Section("accelerations ahead on the last step's polynomial", tuple(begun))]
         if base:
             turning = Section("turns of the base that begin so", tuple(base.turning()))
             found += self._side_by_side.sections([turning])
-        of_base = base.finished() if base else ()
-        end = [
-            *of_base,
-            *self._everywhere(self.coupled.finished),
-            *given_end(self.layout, self.scheme),
-        ]
-        finish = Section("motion at the end of the step", tuple(end))
         if self.auto:
             title = f"iterations, until one changes next to nothing, {MOST_SWEEPS} at most"
             found += [
@@ -93,6 +86,8 @@ class SpaceCollocation:
             for index in range(self.iterations):
                 again = f"iteration {index + 1}: " if self.iterations > 1 else ""
                 found += [replace(s, title=again + s.title) for s in self._iteration(first=index == 0)]
+        end = [*self._everywhere(self.coupled.finished), *given_end(self.layout, self.scheme)]
+        finish = Section("motion at the end of the step", (*end, *(base.finished() if base else ())))
         return tuple(s for s in (*self.split(found, finish), finish) if s.statements)
 
     @cached_property
@@ -123,9 +118,9 @@ class SpaceCollocation:
         where = "at the stages, and at the middle of the step" if first else "at the stages"
         base = self._base
         motion = (
-            *(base.moved() if base else ()),
             *self._everywhere(lambda place: self._motion(place, middle=first)),
             *self._given({kind: self._at_stages(kind) for kind in KINDS}),
+            *(base.moved() if base else ()),
         )
         return [
             Section(f"motion {where}", motion),
