@@ -22,13 +22,10 @@ METHODS = {
     "newmark": (SpaceChoices(1e-3, iterations=3), 2),
     "sdirk4": (SpaceChoices(1e-3, iterations=3, held=True), 4),
     "radau3": (SpaceChoices(1e-3, iterations=3), 5),
-    "gauss2": (SpaceChoices(1e-3, iterations=2), 4),
 }
 
 
-@pytest.mark.parametrize(
-    ("name", "step"), [("newmark", 0.02), ("sdirk4", 0.04), ("radau3", 0.08), ("gauss2", 0.04)]
-)
+@pytest.mark.parametrize(("name", "step"), [("newmark", 0.02), ("sdirk4", 0.04), ("radau3", 0.08)])
 def test_dzhanibekov(name: str, step: float) -> None:
     """A body turns about its middle axis, flips and flips back; its momentum stands, and its energy stays.
 
@@ -55,7 +52,7 @@ def test_dzhanibekov(name: str, step: float) -> None:
     assert np.all(np.array(fine) < (3e-4 if order == 2 else 1e-6)), drifts
 
 
-@pytest.mark.parametrize("name", ["newmark", "sdirk4", "radau3"])
+@pytest.mark.parametrize("name", METHODS)
 def test_momentum_is_kept(name: str) -> None:
     """The satellite tumbles, and its panels, bent at first, swing; another arm does by steps of more stages."""
     choices, order = METHODS[name]
