@@ -117,24 +117,27 @@ class Coupled:
             found.append((re, im))
         return found
 
-    def left_over(self, lacking: Variable, torque: Variable) -> list[Assign]:
+    def left_over(self, lacking: Ref, torque: Ref) -> list[Assign]:
         """Put together for each system what torques lack at the stages.
 
         Parameters
         ----------
-        lacking, torque : Variable
-            Arrays of what lacks, and of what systems are to make up for.
+        lacking, torque : Ref
+            What lacks, and what systems are to make up for.
         """
-        at_stages = [lane.ref(lacking.at())[0] for lane in self.stages]
         found: list[Assign] = []
-        for lane, pair in zip(self.systems, self.combined(at_stages), strict=True):
-            parts = zip(lane.ref(torque.at()), pair, strict=True)
+        for lane, pair in zip(self.systems, self.combined(self.each(lacking)), strict=True):
+            parts = zip(lane.ref(torque), pair, strict=True)
             found += [Assign(ref, value) for ref, value in parts if isinstance(ref, Ref)]
         return found
 
     def at_stages(self, value: Callable[[int], sp.Expr]) -> list[sp.Expr]:
         """Return what has a value at each stage, from 0, one for each of :attr:`stages`."""
         return [value(instant) for instant in range(len(self.spectrum.nodes))]
+
+    def each(self, value: Ref) -> list[sp.Expr]:
+        """Return what a value is at each stage."""
+        return [lane.ref(value)[0] for lane in self.stages]
 
     def inputs_at_stages(
         self, inputs: Sequence[Variable], stand: Mapping[str, Ref]
@@ -166,7 +169,7 @@ class Coupled:
 
     def trials(self, place: Place) -> list[sp.Expr]:
         """Return the accelerations at the stages as known so far."""
-        return list(self._trials(place))
+        return self.each(place.trial)
 
     def _trials(self, place: Place) -> list[Ref]:
         return [lane.ref(place.trial)[0] for lane in self.stages]
@@ -206,11 +209,13 @@ class Coupled:
 
     def improved(self, place: Place) -> list[Assign]:
         """Take up what the systems have found."""
-        size = len(self.stages)
-        return [
-            Assign(trial, trial + self.from_systems(sp.eye(size).row(i), place.solved))
-            for i, trial in enumerate(self._trials(place))
-        ]
+        trials = self._trials(place)
+        return [Assign(trial, trial + v) for trial, v in zip(trials, self.changes(place.solved), strict=True)]
+
+    def changes(self, found: Ref) -> list[sp.Expr]:
+        """Return what the systems have found to change at the stages, one value for each of :attr:`stages`."""
+        rows = sp.eye(len(self.stages))
+        return [self.from_systems(rows.row(i), found) for i in range(rows.rows)]
 
     def finished(self, place: Place) -> list[Assign]:
         """Keep the accelerations, and write the motion at the end of the step by them."""

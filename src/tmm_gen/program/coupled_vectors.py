@@ -71,14 +71,18 @@ class CoupledVectors(Coupled):
         """Return what has a value at each stage."""
         return [Vector(*map(value, range(len(self.spectrum.nodes))))]
 
-    def left_over(self, lacking: Variable, torque: Variable) -> list[Assign]:
+    def each(self, value: Ref) -> list[sp.Expr]:
+        """Return what a value is at each stage."""
+        return self._parts(self.stages[0].ref(value)[0])
+
+    def left_over(self, lacking: Ref, torque: Ref) -> list[Assign]:
         """Put together for each system what torques lack at the stages."""
-        found = self._parts(self.stages[0].ref(lacking.at())[0])
+        found = self.each(lacking)
         rows = [[row[k][part] for row in self.spectrum.into for part in (0, 1)] for k in range(len(found))]
         value = self._columns(
             "system_by_stage", "what a stage adds to each system", rows, found, systems=True
         )
-        return [Assign(self.systems[0].ref(torque.at())[0], value)]
+        return [Assign(self.systems[0].ref(torque)[0], value)]
 
     def from_systems(self, weights: Sequence[sp.Expr], found: Ref) -> sp.Expr:
         """Return a weighted sum of the stages by what the systems have found."""
@@ -87,10 +91,6 @@ class CoupledVectors(Coupled):
         return sp.Add(*(weight * part for weight, part in zip(sums, parts, strict=True)))
 
     # -- motion at a place ---------------------------------------------------------------------------------------
-
-    def trials(self, place: Place) -> list[sp.Expr]:
-        """Return the accelerations at the stages as known so far."""
-        return self._parts(self._whole(place))
 
     def ahead(self, place: Place) -> list[Assign]:
         """Begin on the polynomial of the last step."""
@@ -136,9 +136,12 @@ class CoupledVectors(Coupled):
     def improved(self, place: Place) -> list[Assign]:
         """Take up what the systems have found."""
         whole = self._whole(place)
-        columns, parts = self._back(place.solved)
+        return [Assign(whole, whole + change) for change in self.changes(place.solved)]
+
+    def changes(self, found: Ref) -> list[sp.Expr]:
+        """Return what the systems have found to change at the stages."""
         words = "what part of a system adds to each stage"
-        return [Assign(whole, whole + self._columns("stage_by_part", words, columns, parts))]
+        return [self._columns("stage_by_part", words, *self._back(found))]
 
     # -- vectors -------------------------------------------------------------------------------------------------
 

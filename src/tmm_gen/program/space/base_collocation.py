@@ -139,21 +139,20 @@ class BaseAtStages:
 
     def left_over(self) -> list[Statement]:
         """Put together for each system what the balances lack at the stages."""
-        found: list[Statement] = []
-        for symbol, force in zip(LACKS, self.forces, strict=True):
-            lacking = [lane.ref(self.over.at_base(symbol))[0] for lane in self.coupled.stages]
-            for lane, pair in zip(self.coupled.systems, self.coupled.combined(lacking), strict=True):
-                parts = zip(lane.ref(force), pair, strict=True)
-                found += [Assign(ref, value) for ref, value in parts if isinstance(ref, Ref)]
-        return found
+        return [
+            x
+            for symbol, force in zip(LACKS, self.forces, strict=True)
+            for x in self.coupled.left_over(self.over.at_base(symbol), force)
+        ]
 
     def given(self) -> list[Statement]:
         """Return what the systems change accelerations at the stages by."""
-        rows = sp.eye(len(self.coupled.stages))
         return [
-            Assign(target, self.coupled.from_systems(rows.row(i), self.mend.at_base(symbol)))
+            Assign(target, value)
             for symbol, given in zip(CHANGES, _GIVEN, strict=True)
-            for i, target in enumerate(self._lanes(given))
+            for target, value in zip(
+                self._lanes(given), self.coupled.changes(self.mend.at_base(symbol)), strict=True
+            )
         ]
 
     def improved(self) -> list[Statement]:
@@ -181,13 +180,14 @@ class BaseAtStages:
         found += [s for place in self._places for s in self.coupled.finished(place)]
         # at the turns of the last iteration: what they have changed by since is less than the polynomial leaves
         for k, kept in enumerate(self.layout.alpha_stages.values()):
-            spinning = self.over.at_base(motion_of.SPINNING[k])
+            spinning = self.coupled.each(self.over.at_base(motion_of.SPINNING[k]))
+            given = self.coupled.each(_REFS[_GIVEN[3 + k]])
             newest = self.layout.newest("a", self.layout.alpha)[k]
-            for lane, variable, given in zip(
-                self.coupled.stages, kept, self._lanes(_GIVEN[3 + k]), strict=True
-            ):
-                if variable.ref != newest:
-                    found.append(Assign(variable.ref, lane.ref(spinning)[0] + given))
+            found += [
+                Assign(variable.ref, alpha + change)
+                for variable, alpha, change in zip(kept, spinning, given, strict=True)
+                if variable.ref != newest
+            ]
         return found
 
     # -- places --------------------------------------------------------------------------------------------------

@@ -141,7 +141,7 @@ class SpaceCollocation:
 
     def _left_over(self, *, first: bool) -> Section:
         """Put together for each system what torques joints, and first of all shafts, lack at the stages."""
-        body = self.coupled.left_over(self._over.array(IMBALANCE), self._mend.array(TORQUE))
+        body = self.coupled.left_over(self._over.array(IMBALANCE).at(), self._mend.array(TORQUE).at())
         stations = self.layout.stations
         stretches = [(0, stations)] if first else self.layout.tree.stretches
         loops = tuple(Loop(Order.OUTWARD, start, stop, tuple(body)) for start, stop in stretches)
