@@ -195,7 +195,8 @@ def compared(
     for words, count in fewest.items():
         row: dict[str, object] = {"arm": title, "error": f"{wanted:.0e}", "who": words, "steps": "-"}
         if count is not None:
-            row |= {"steps": INTERVALS * count, "ms": f"{statistics.median(runs[words]):.2f}"}
+            median = statistics.median(runs[words])
+            row |= {"steps": INTERVALS * count, "ms": f"{median:.2f}" if median >= 0.1 else f"{median:.2g}"}
         if count is not None and best is not None:
             pairs = zip(runs[words], runs[best], strict=True)
             row["over"] = f"{statistics.median(a / b for a, b in pairs):.2f}"
