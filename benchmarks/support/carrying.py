@@ -91,7 +91,8 @@ class CarryingPlant(Plant):
 
     def advance(self, torque: Array) -> Array:
         """Let a sample pass."""
-        mass = dict(self.loads.changes).get(len(self.states))
+        sample = len(self.states)
+        mass = dict(self.loads.changes).get(sample) if sample else None  # the first is there from the start
         if mass is not None:
             self.carry(mass)
         return super().advance(torque)
