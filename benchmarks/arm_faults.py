@@ -6,11 +6,11 @@ For up to 50 samples encoders are stuck, lost, absurd or off by turns; the refer
 jump; bounds of torques are crossed, not finite or too narrow to hold the arm; payloads come and go, told or not, or
 told wrongly. Arms in space stand at angles that suit the three joints of examples/space/wall3.toml, and what keeps no
 walls is written without them. Then sensors are true again, and the controller is told the scene's bounds and reference
-and the payload there is. Required is OK within one second, an arm that arrives (0.02 rad) within four seconds, and at
-all times a torque within the bounds in force; and nothing but OK from one second on. Bounds that leave a motor no other
-torque than its largest throw an arm without gears many turns away: where rates are bounded, the last but one and the
-last are required later by the time that the arm takes for this way as fast as it may turn. hypothesis draws the cases;
-exits with 1 if one fails.
+and the payload there is. Required is OK within one second, an arm that arrives (0.02 rad) within four, nothing but OK
+from then on or from one second on, and at all times a torque within the bounds in force. Bounds that leave a motor no
+other torque than its largest throw an arm without gears many turns away: where rates are bounded it is to arrive within
+four seconds more than it takes for this way as fast as it may turn. hypothesis draws the cases; exits with 1 if one
+fails.
 """
 
 from __future__ import annotations
@@ -59,9 +59,10 @@ def failed(outcome: ArmOutcome, period: float) -> bool:
 
 
 def latched(outcome: ArmOutcome, period: float) -> bool:
-    """Return whether a case has no OK within a second, or something else after the arm has had time to come back."""
-    late = (outcome.last_other - outcome.way) * period > WITHIN
-    return outcome.first_ok is None or outcome.first_ok * period > WITHIN or late
+    """Return whether a case has no OK within a second, or something else later although the arm has arrived."""
+    if outcome.first_ok is None or outcome.first_ok * period > WITHIN:
+        return True
+    return outcome.last_other * period > WITHIN and outcome.last_other > outcome.last_off
 
 
 def row(controller: str, real: str, found: Found, period: float) -> dict[str, object]:
