@@ -84,23 +84,21 @@ def space_section(rows: Rows) -> str:
     lines = [f"| {row['joints']} | {'yes' if row['walled'] else 'no'} | {_cells(row)} |" for row in solvers]
     found = ["\n".join([*SPACE_HEAD, *lines])]
     for joints in dict.fromkeys(row["joints"] for row in rows):
-        own = [row for row in solvers if row["joints"] == joints]
-        others = [row for row in own if not str(row["solver"]).startswith("`")]
-        full, zero = (
-            min(_number(row[key]) for row in others if row[key] is not None)
-            for key in ("over_full", "over_zero")
-        )
-        once = [
-            _number(row["median_us"])
-            for row in rows
-            if row["joints"] == joints and row["solver"] == DERIVATIVES
-        ]
+        own = [row for row in rows if row["joints"] == joints]
+        others = [row for row in own if row in solvers and not str(row["solver"]).startswith("`")]
+        once = min(_number(row["median_us"]) for row in own if row["solver"] == DERIVATIVES)
         found.append(
-            f"With {joints} joints the fastest of the others takes {_short(full)} times the time of `rti` and "
-            f"{_short(zero)} times that of `rti-zero`; to compute the derivatives of all stages takes them "
-            f"{_time(min(once))} µs, once."
+            f"With {joints} joints the fastest of the others takes {_least(others, 'over_full', True)} times the time "
+            f"of `rti` up to the wall, {_least(others, 'over_full', False)} times without it, and "
+            f"{_least(others, 'over_zero', False)} times that of `rti-zero`. To compute the derivatives of all stages "
+            f"once takes them {_time(once)} µs."
         )
     return "\n\n".join(found)
+
+
+def _least(rows: Rows, key: str, walled: bool) -> str:
+    """Return the least ratio of those with a wall, or without."""
+    return _short(min(_number(row[key]) for row in rows if row["walled"] == walled))
 
 
 def _time(microseconds: float) -> str:
