@@ -5,12 +5,19 @@ from __future__ import annotations
 import json
 import subprocess
 from collections.abc import Callable
+from contextlib import nullcontext
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
+import numpy as np
 import pytest
 
 from tmm_gen.cli import main
 from tmm_gen.control.bench import Bench
+from tmm_gen.errors import UserError
+from tmm_gen.onboard.emit import _require_digits
+from tmm_gen.scene import load_scene
 
 pytestmark = pytest.mark.compiler
 
@@ -61,6 +68,14 @@ def test_a_folder_that_has_a_controller_is_refused_before_the_work(
     assert main(["mpc", str(repository / "scenes" / "swing.toml"), "--emit", "."]) == 2
     assert "--emit .: there is a CMakeLists.txt already." in capsys.readouterr().err
     assert (tmp_path / "CMakeLists.txt").read_text() == "mine"
+
+
+def test_single_precision_is_refused_where_it_leaves_no_digit_of_torques(repository: Path) -> None:
+    bench: Any = SimpleNamespace(scene=load_scene(repository / "scenes" / "swing.toml"))
+    for spread, real, refused in ((1e9, "float32", True), (1e9, "float64", False), (1e6, "float32", False)):
+        condensed: Any = SimpleNamespace(input_hessian=np.diag([1.0, spread]))
+        with pytest.raises(UserError, match="some 119 times as large") if refused else nullcontext():
+            _require_digits(bench, condensed, real)
 
 
 def test_a_controller_can_have_a_name_of_its_own(tmm_gen: Call, tmp_path: Path, repository: Path) -> None:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from tmm_gen.control.bench import Bench
+from tmm_gen.control.condensed import Condensed
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.walls import keeps_no_walls
@@ -15,6 +18,9 @@ EMITTED = ("mpc-links", "mpc-modes", "rti-zero", "rti")
 """Names of the controllers that can be written in C."""
 LINEAR = ("mpc-links", "mpc-modes")
 """Those of them that are linear."""
+
+_MOST_LOST = 10.0
+"""Rounding of the largest curvature of the cost over the least one. Single precision served with 3, and not with 100."""
 
 
 def usual_controller(bench: Bench) -> str:
@@ -75,6 +81,20 @@ def emit_controller(
     title = bench.scene.title
     if controller in ("rti", "rti-zero"):
         made = RealTimeIteration(bench.step, bench.links, bench.inertia, controller == "rti-zero")
+        _require_digits(bench, made.prepared, real)
         return name, emit_rti(name, title, made, arm, real)
     model = bench.links if controller == "mpc-links" else bench.modes
-    return name, emit_linear_mpc(name, title, LinearMpc(model, bench.problem, bench.inertia), arm, real)
+    linear = LinearMpc(model, bench.problem, bench.inertia)
+    _require_digits(bench, linear.condensed, real)
+    return name, emit_linear_mpc(name, title, linear, arm, real)
+
+
+def _require_digits(bench: Bench, condensed: Condensed, real: str) -> None:
+    """Refuse single precision where rounding leaves nothing of how little the least of all torques is weighed."""
+    curved = np.linalg.eigvalsh(condensed.input_hessian)
+    lost = float(curved[-1] / curved[0] * np.finfo(np.float32).eps)
+    if real == "float32" and not lost <= _MOST_LOST:
+        raise UserError(
+            f"{bench.scene.source.origin}: control.weights: in float32 rounding leaves nothing of the weights of "
+            f"torques. Write it in float64, or make `torque` and `torque_step` some {lost:.0f} times as large."
+        )
