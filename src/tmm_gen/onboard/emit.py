@@ -20,7 +20,7 @@ LINEAR = ("mpc-links", "mpc-modes")
 """Those of them that are linear."""
 
 _MOST_LOST = 10.0
-"""Rounding of the largest curvature of the cost over the least one. Single precision served with 3, and not with 100."""
+"""Rounding of the largest curvature of the cost over the least one. Single precision does with 3, not with 100."""
 
 
 def usual_controller(bench: Bench) -> str:
