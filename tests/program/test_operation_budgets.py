@@ -21,10 +21,10 @@ BUDGETS = {
     "sdirk2": (40, 230),
     "sdirk4": (122, 589),
     "fox_euler": (18, 115),
-    "radau2": (48, 395),
-    "radau3": (68, 570),
-    "gauss2": (50, 403),
-    "gauss3": (68, 1108),
+    "radau2": (48, 369),
+    "radau3": (68, 538),
+    "gauss2": (50, 377),
+    "gauss3": (68, 802),
 }
 """Integrator: operations per station and step of a damped chain, and of a damped planar arm (Riccati sweep)."""
 

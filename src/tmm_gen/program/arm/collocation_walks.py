@@ -1,6 +1,8 @@
-"""Walks of a step whose stages are solved at once: what its equations leave over, and a sweep for what mends that."""
+"""Walks of a step whose stages are solved at once: what its equations leave over, and what mends that."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import sympy as sp
 
@@ -10,11 +12,14 @@ from tmm_gen.derive.station.residual import residual
 from tmm_gen.program.arm.at_places import BASE
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import Gathered
+from tmm_gen.program.arm.correction import Correction
 from tmm_gen.program.arm.walks import Walks
 from tmm_gen.program.statements import Assign, Order, Section, Statement
 from tmm_gen.program.variables import Role, Variable, local
 
 ZERO = sp.Integer(0)
+AGAIN = "mended again: "
+"""How titles begin where a sweep's factors serve once more."""
 LEFT_AT_HUB = local("residual_of_hub", "torque that the equations leave over at the hub", "N m")
 
 
@@ -84,8 +89,8 @@ class ResidualWalks(Walks):
         return [at_tip.value(left.get(s, ZERO).subs(nothing)) for s in forces]
 
 
-class MendingWalks(Walks):
-    """The sweep that finds what changes of accelerations make up for what the equations leave over."""
+class _OfResiduals(Walks):
+    """Walks whose joints and hub have what the equations leave over in place of their own torques."""
 
     def at_station(self) -> Binding:
         """Return what symbols stand for at station j of a loop."""
@@ -100,3 +105,19 @@ class MendingWalks(Walks):
     def joint_forces(self) -> list[Statement]:
         """Return nothing: what joints leave over is known."""
         return self.loads.filled(self._driven)
+
+
+class MendingWalks(_OfResiduals):
+    """The sweep that finds what changes of accelerations make up for what the equations leave over."""
+
+
+class MendingAgain(_OfResiduals, Correction):
+    """The same behind a sweep, with its pivots, slopes and answers: forces in, unknowns out."""
+
+    def plain(self) -> list[Section]:
+        """Return both walks and the base between them, under titles of their own."""
+        return [replace(s, title=AGAIN + s.title) for s in super().plain()]
+
+    def outward_motion(self) -> list[Statement]:
+        """Return nothing: the walks over the stages have been there."""
+        return []

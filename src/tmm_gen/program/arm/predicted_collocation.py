@@ -1,7 +1,8 @@
 """A step whose stages are all solved at once, about predicted motion: simplified Newton iterations.
 
 An iteration walks over the stages for what their equations leave over, side by side, and mends it by sweeps whose
-slopes are those at the middle of the step. Accelerations begin on the last step's polynomial.
+slopes are those at the first stage that is not before the middle of the step. Accelerations begin on the polynomial of
+the last step.
 """
 
 from __future__ import annotations
@@ -10,21 +11,26 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-import sympy as sp
-
 from tmm_gen.derive.integrators.declaration import KINDS, Kind
 from tmm_gen.derive.station.frame import Frame
 from tmm_gen.program.arm.at_places import BASE, hub_unknown, solved_variable
 from tmm_gen.program.arm.collocation import CollocationStep
-from tmm_gen.program.arm.collocation_walks import LEFT_AT_HUB, MendingWalks, ResidualWalks, left_over
+from tmm_gen.program.arm.collocation_walks import (
+    AGAIN,
+    LEFT_AT_HUB,
+    MendingAgain,
+    MendingWalks,
+    ResidualWalks,
+    left_over,
+)
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import Moving, motion_variable
-from tmm_gen.program.coupled import ZERO, Place, trial_acceleration
-from tmm_gen.program.fields import MOTION_NAMES
+from tmm_gen.program.coupled import HALF, ZERO, Place, trial_acceleration
 from tmm_gen.program.inputs import input_instants
+from tmm_gen.program.passes.shared import shared_arrays, taken_over
 from tmm_gen.program.passes.side_by_side import SideBySide
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement
-from tmm_gen.program.variables import Ref, Role, Variable, local
+from tmm_gen.program.variables import Ref, Variable
 from tmm_gen.scene.model import MOST_SWEEPS
 
 
@@ -42,26 +48,22 @@ class PredictedCollocationStep(CollocationStep):
         ]
         if self.auto:
             title = f"iterations, until one changes next to nothing, {MOST_SWEEPS} at most"
-            found += [
-                Section(title, (Repeat(MOST_SWEEPS),)),
-                *self._iteration(),
-                self._judged(),
-            ]
+            found += [Section(title, (Repeat(MOST_SWEEPS),)), *self._iterations(1), self._judged()]
         else:
-            for index in range(self.iterations):
-                again = f"iteration {index + 1}: " if self.iterations > 1 else ""
-                found += [replace(s, title=again + s.title) for s in self._iteration()]
+            found += self._iterations(self.iterations)
         found.append(Section("motion at the end of the step", tuple(self._end())))
         return tuple(s for s in found if s.statements)
 
     def _judged(self) -> Section:
         return self.coupled.judged(self._everywhere(self.coupled.turned))
 
-    def _iteration(self) -> list[Section]:
+    def _iterations(self, count: int) -> list[Section]:
+        """Return so many iterations: the first one sweeps, and leaves its factors to the others."""
         n = self.layout.stations
         arrays = [self._at_stages(kind) for kind in KINDS]
         seeds = self.coupled.inputs_at_stages(self.layout.inputs, self.seen)
-        over = SideBySide(self.coupled.stages, seeds, arrays).sections(self._residual_walks().sections())
+        residuals = self._residual_walks().sections()
+        over = SideBySide(self.coupled.stages, seeds, arrays).sections(residuals)
         at_stages = [lane.ref(left_over(n).at())[0] for lane in self.coupled.stages]
         of_hub = [lane.ref(LEFT_AT_HUB)[0] for lane in self.coupled.stages]
         mend = {
@@ -69,14 +71,46 @@ class PredictedCollocationStep(CollocationStep):
             left_over(n).at(): self.coupled.combined(at_stages),
             LEFT_AT_HUB: self.coupled.combined(of_hub),
         }
-        sweep = SideBySide(self.coupled.systems, mend).sections(self._mending_walks().sections())
-        moving = [*self._middle_inputs(), *self._everywhere(self._motion), *self._base_motion()]
-        return [
-            Section("motion at the stages, and at the middle of the step", tuple(moving)),
-            *over,
-            *self.split(sweep),
-            Section("improved accelerations of the stages", tuple(self._everywhere(self.coupled.improved))),
+        walks = self._mending_walks(again=count > 1)
+        again = MendingAgain(walks, walks.motion) if count > 1 else None
+        mending = walks.sections(again.plain if again else tuple)
+        shared = shared_arrays(residuals, mending)
+        taken = taken_over(mending, shared, lambda ref: self._at_slopes(ref, shared))
+        swept = SideBySide(self.coupled.systems, mend).sections(taken)
+        later = [s for s in swept if s.title.startswith(AGAIN)]
+        moving = [*self._everywhere(self._motion), *self._base_motion()]
+        improved = self._everywhere(self.coupled.improved)
+        begun = [Section("motion at the stages", tuple(moving)), *over]
+        ended = Section("improved accelerations of the stages", tuple(improved))
+        rounds = [[*swept[: len(swept) - len(later)], ended], *[[*begun, *later, ended]] * (count - 1)]
+        if count == 1:
+            return [*begun, *self.split(rounds[0])]
+        titled = [
+            replace(s, title=f"iteration {index}: {s.title}")
+            for index, sections in enumerate(rounds, start=1)
+            for s in sections
         ]
+        return [*(replace(s, title=f"iteration 1: {s.title}") for s in begun), *self.split(titled)]
+
+    @cached_property
+    def _slopes(self) -> int:
+        """The stage whose motion gives the slopes of a step: the first one that is not before its middle.
+
+        The middle as predicted would do as well for the whole step, but what is predicted errs the more the later, and
+        there slopes behind the middle are the better ones; and what they need is computed anyway.
+        """
+        nodes = self.coupled.spectrum.nodes
+        return next(index for index, node in enumerate(nodes) if node >= HALF)
+
+    def _at_slopes(self, ref: Ref, shared: frozenset[Variable]) -> Ref:
+        """Return what stands for a reference at the stage of the slopes."""
+        for given in self.layout.inputs:
+            if ref == self.seen[given.name]:
+                return given.entry(self._slopes)
+        moving = {self._at_stages(kind) for kind in KINDS}
+        if ref.variable in shared or ref.variable in moving:
+            return Ref(self.coupled.stages[self._slopes].of(ref.variable), ref.offset, ref.entry)
+        return ref
 
     # -- what moves ----------------------------------------------------------------------------------------------
 
@@ -92,14 +126,12 @@ class PredictedCollocationStep(CollocationStep):
         return [*found, Loop(Order.OUTWARD, 0, n, tuple(body))]
 
     def _motion(self, place: Place) -> list[Assign]:
-        """Write motion at the stages and at the middle by the accelerations so far."""
+        """Write motion at the stages by the accelerations so far."""
         found: list[Assign] = []
         for kind in KINDS:
             targets = [lane.of(self._at_stages(kind)) for lane in self.coupled.stages]
-            *at_stages, middle = (
-                v.entry(BASE) if place.prefix else v.at(1) for v in (*targets, self._at_middle(kind))
-            )
-            found += self.coupled.moved(place, kind, at_stages, middle)
+            at_stages = [v.entry(BASE) if place.prefix else v.at(1) for v in targets]
+            found += self.coupled.moved(place, kind, at_stages)
         return found
 
     def _base_motion(self) -> list[Statement]:
@@ -110,13 +142,10 @@ class PredictedCollocationStep(CollocationStep):
             return []
         for kind in KINDS:
             at_stages = [ZERO] * len(self.coupled.stages)
-            middle: sp.Expr = ZERO
             if row.boundary == "prescribed":
                 at_stages = [Loads(self.layout, i).prescribed[kind] for i in range(len(self.coupled.stages))]
-                middle = Loads(self.layout, inputs=self._middle).prescribed[kind]
             for lane, value in zip(self.coupled.stages, at_stages, strict=True):
                 found.append(Assign(lane.of(self._at_stages(kind)).entry(BASE), value))
-            found.append(Assign(self._at_middle(kind).entry(BASE), middle))
         return found
 
     def _end(self) -> list[Statement]:
@@ -137,31 +166,11 @@ class PredictedCollocationStep(CollocationStep):
         loads = Loads(self.layout, inputs=self.seen)
         return ResidualWalks(self.layout, self.prepared, frame, {}, motion, loads, self.stage_of())
 
-    def _mending_walks(self) -> MendingWalks:
-        frame = replace(self.frame(), predicted=True, residual=True)
-        motion: dict[str, Moving] = {kind: self._at_middle(kind) for kind in KINDS}
-        loads = Loads(self.layout, inputs=self._middle)
+    def _mending_walks(self, *, again: bool) -> MendingWalks:
+        frame = replace(self.frame(), predicted=True, residual=True, corrected=again)
+        motion: dict[str, Moving] = {kind: self._at_stages(kind) for kind in KINDS}
+        loads = Loads(self.layout, inputs=self.seen)
         return MendingWalks(self.layout, self.prepared, frame, self.gains(), motion, loads, self.stage_of())
-
-    @cached_property
-    def _middle(self) -> dict[str, Ref]:
-        """Inputs at the middle of the step."""
-        return {
-            v.name: local(f"middle_{v.name}", f"{v.name} at the middle of the step", v.unit)
-            for v in self.layout.inputs
-        }
-
-    def _middle_inputs(self) -> list[Statement]:
-        weights = self.coupled.spectrum.middle["a"]
-        return [
-            Assign(self._middle[v.name], sp.Add(*(w * v.entry(i) for i, w in enumerate(weights))))
-            for v in self.layout.inputs
-        ]
 
     def _at_stages(self, kind: Kind) -> Variable:
         return motion_variable(kind, "prediction", self.layout.stations)
-
-    def _at_middle(self, kind: Kind) -> Variable:
-        name, unit = MOTION_NAMES[kind]
-        doc = f"{name} of base and links at the middle of the step"
-        return Variable(f"middle_{name}", Role.WORK, self.layout.stations + 1, doc, unit)
