@@ -57,8 +57,11 @@ of = "angle"
 BODIES = {"chain": "", "planar": "mass = 0.5\nlength = 0.3"}
 
 
-def operations(kind: str, integrator: str, stations: int, corrections: int = 0) -> int:
+def operations(
+    kind: str, integrator: str, stations: int, corrections: int = 0, iterations: int | None = None
+) -> int:
     more = f"corrections = {corrections}" if corrections else ""
+    more += f"iterations = {iterations}" if iterations else ""
     text = SCENE.format(kind=kind, more=more, integrator=integrator, stations=stations, body=BODIES[kind])
     return count_routine(build_program(parse_scene(text)).main).total
 
@@ -78,3 +81,8 @@ def test_a_correction_costs_less_than_half_a_sweep(integrator: str) -> None:
     )
     assert (once, twice - once) == CORRECTED[integrator]
     assert 2 * (twice - once) < BUDGETS[integrator][1]
+
+
+def test_a_second_iteration_of_stages_solved_at_once_repeats_forces_alone() -> None:
+    twice = operations("planar", "radau3", 4, iterations=2) - operations("planar", "radau3", 3, iterations=2)
+    assert twice - BUDGETS["radau3"][1] == 259

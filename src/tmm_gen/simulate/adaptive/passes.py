@@ -236,5 +236,5 @@ def least_turn(scene: Scene, error: float) -> float:
         Most that a step may be wrong by, as a share of the motion.
     """
     quadratic = scene.spatial is None and not scene.coupled
-    # Newton's iteration squares what is wrong; with slopes of the step's middle it makes that several times less
+    # Newton's iteration squares what is wrong; with slopes of one instant of the step it makes that several times less
     return 0.1 * math.sqrt(error) if quadratic else 0.3 * error
