@@ -333,8 +333,8 @@ def update() -> None:
     """Measure all arms beside peers, and write the page."""
     arms = [(kind, links, USUAL) for kind in ("gravity", "motor") for links in ALL_LINKS]
     lines = [
-        f"| arm, links | the quicker one | steps (`{BESIDE}`, best peer) | ms | of the time of `{BESIDE}` "
-        "| `radau3`: of the best peer's | the quicker one: of the best peer's | who |",
+        f"| arm, links | ours | steps (`{BESIDE}`, best peer) | ms | over `{BESIDE}` | `radau3` over best peer "
+        "| ours over best peer | who |",
         "|---|---|---|---:|---:|---:|---:|---|",
     ]
     for kind, links, make in (*arms, *HELD_OUT):
