@@ -182,6 +182,22 @@ def test_an_arm_that_fails_on_the_way_stops_there_and_the_others_go_on() -> None
             np.testing.assert_array_equal(values[:, arm], still.outputs[name][:, 0])
 
 
+def test_when_one_of_two_batches_fails_the_other_goes_on_alone() -> None:
+    """Batches are stepped two at once; that one of them ends changes no bit of the other."""
+    scene, batch, _ = compiled("stages")
+    draw = np.random.default_rng(9)
+    steps, torque = 20, draw.standard_normal((20, 16))
+    sound = batch.simulate(steps * scene.integrator.step, {"hub_torque": torque})
+    spoilt = torque.copy()
+    spoilt[10:, 8:] = np.nan
+    run = batch.simulate(steps * scene.integrator.step, {"hub_torque": spoilt}, every=3)
+    assert np.flatnonzero(run.status).tolist() == list(range(8, 16))
+    for name, values in sound.outputs.items():
+        np.testing.assert_array_equal(run.outputs[name][:, :8], values[::3, :8])
+        np.testing.assert_array_equal(run.outputs[name][:4, 8:], values[:12:3, 8:])
+        assert np.isnan(run.outputs[name][4:, 8:]).all()
+
+
 def test_when_all_arms_fail_none_is_left() -> None:
     scene, batch, _ = compiled("stages")
     run = batch.simulate(20 * scene.integrator.step, {"hub_torque": np.full(9, np.inf)})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import count
+from itertools import count, groupby
 
 import sympy as sp
 
@@ -21,7 +21,7 @@ from tmm_gen.emit.c.handed import handed_at
 from tmm_gen.emit.c.leaving import Leaving
 from tmm_gen.emit.c.pair import PairPrinter, is_pair
 from tmm_gen.emit.c.printer import CPrinter, element_at
-from tmm_gen.emit.c.scalars import place_scalars
+from tmm_gen.emit.c.scalars import Placement, place_scalars
 from tmm_gen.emit.c.structs import described, dimension
 from tmm_gen.emit.c.words import sentence
 from tmm_gen.emit.expressions import element
@@ -144,7 +144,7 @@ class Body:
 
     def _lines(self) -> Iterator[str]:
         hoisted = self._hoisted()
-        placement = place_scalars(self.routine)
+        placement = self._placement
         local = frozenset(hoisted)
         printer = self._printer(lambda ref: self._refer(ref, local))
         for variable in hoisted:
@@ -153,7 +153,7 @@ class Body:
             yield from self._declaration(variable)
         sums = self._sums
         if sums is not None and any(sums.inside.values()):
-            yield f"{INDENT}real {TOTAL} = {self._zero}; /* of the new motion: is all of it finite? */"
+            yield f"{INDENT}real {TOTAL}{self._beside} = {self._zeros}; /* of the new motion: is all of it finite? */"
         positions = iter(range(len(tuple(self.routine.assignments()))))
         names = (f"turn_{number}" for number in count(1))
 
@@ -186,7 +186,10 @@ class Body:
         for section in self.routine.sections:
             yield ""
             yield from comment(sentence(section.title), depth)
-            for top in section.statements:
+            for top, first, last in _ends_of_straight(section.statements):
+                if first:
+                    yield from self._opened(depth)
+                    straight = self._kept(straight, names)
                 if isinstance(top, Mark):
                     yield from self._marked(top, printer)
                     straight = Turns(names)
@@ -200,20 +203,25 @@ class Body:
                             yield from self._leaving.in_range(printer.text(angle), depth + 1)
                         yield f"{INDENT * depth}}}"
                     yield f"{INDENT * depth}{self._loop_head(top)} {{"
+                    yield from self._opened(depth + 1)
+                    inside = depth + 1 + self._deeper
                     turns = Turns(names)
                     handed = handed_at(top, self.fence.handed)
                     for place, inner in enumerate(top.body):
-                        yield from simple(inner, depth + 1, turns, checked)
+                        yield from simple(inner, inside, turns, checked)
                         if place in handed:
                             numbers = [printer.text(ref) for ref in handed[place]]
-                            yield from self._leaving.fenced_together(numbers, depth + 1)
+                            yield from self._leaving.fenced_together(numbers, inside)
                         straight.forget(inner.target) if isinstance(inner, Assign) else None
                     if sums is not None and (terms := sums.inside.get(top, ())):
                         text = " + ".join(self._judged(assign, printer) for assign in terms)
-                        yield from statement(f"{TOTAL} += {text};", depth + 1)
+                        yield from statement(f"{self._sum} += {text};", inside)
+                    yield from self._closed(depth + 1)
                     yield f"{INDENT * depth}}}"
                 else:
-                    yield from simple(top, depth, straight)
+                    yield from simple(top, depth + self._deeper, straight)
+                if last:
+                    yield from self._closed(depth)
 
     def _ahead(self, statement: Statement, depth: int) -> Iterator[str]:
         """Yield what stands before a statement, also one inside a loop."""
@@ -239,6 +247,40 @@ class Body:
     def _zero(self) -> str:
         return self.real.literal(0)
 
+    # -- what arms side by side do otherwise ----------------------------------------------------------
+
+    @property
+    def _zeros(self) -> str:
+        """What the sum of the new state begins with."""
+        return self._zero
+
+    @property
+    def _deeper(self) -> int:
+        """By how many levels statements stand deeper than their loop, or the function."""
+        return 0
+
+    @property
+    def _sum(self) -> str:
+        """The sum of the new state."""
+        return TOTAL
+
+    def _opened(self, depth: int) -> list[str]:
+        """Return what opens a block of statements."""
+        return []
+
+    def _closed(self, depth: int) -> list[str]:
+        """Return what closes it."""
+        return []
+
+    def _kept(self, turns: Turns, names: Iterator[str]) -> Turns:
+        """Return the sines that the next block of straight statements knows."""
+        return turns
+
+    @property
+    def _beside(self) -> str:
+        """The dimension of scratch that there is more than once."""
+        return ""
+
     def _marked(self, mark: Mark, printer: CPrinter) -> Iterator[str]:
         """Yield where something repeated begins or ends."""
         if isinstance(mark, Repeat):
@@ -256,7 +298,7 @@ class Body:
         if sums is None:
             raise ValueError(f"{self.routine.name} does not add up its state")
         printer = self._printer(lambda ref: self._refer(ref, frozenset()))
-        terms = [TOTAL] if any(sums.inside.values()) else []
+        terms = [self._sum] if any(sums.inside.values()) else []
         terms += [self._judged(assign, printer) for assign in sums.behind]
         terms += [element_at(self._placed(v), at, self._last) + self._high for v, at in sums.ends]
         if not terms:
@@ -266,6 +308,10 @@ class Body:
     @cached_property
     def _leaving(self) -> Leaving:
         return Leaving(self.program.name, self.real, self.fence)
+
+    @cached_property
+    def _placement(self) -> Placement:
+        return place_scalars(self.routine)
 
     @cached_property
     def _sums(self) -> Sums | None:
@@ -310,7 +356,8 @@ class Body:
         return tuple(v for v in self.routine.variables(Role.COEFFICIENT) if not self._source(v))
 
     def _declaration(self, variable: Variable) -> list[str]:
-        line = f"{INDENT}{self._type(variable)} {local_name(variable)}{dimension(variable, self.program)};"
+        lengths = self._beside + dimension(variable, self.program)
+        line = f"{INDENT}{self._type(variable)} {local_name(variable)}{lengths};"
         remark = f" /* {described(variable)} */"
         if variable.doc and len(line) + len(remark) <= WIDTH:
             return [line + remark]
@@ -336,3 +383,11 @@ class Body:
         written = {inner.target.variable for inner in loop.body if isinstance(inner, Assign)}
         angles = dict.fromkeys(angle for inner in loop.body for angle in angles_in(inner.value))
         return [angle for angle in angles if not {ref.variable for ref in refs_in(angle)} & written]
+
+
+def _ends_of_straight(statements: Sequence[Statement]) -> Iterator[tuple[Statement, bool, bool]]:
+    """Yield statements, and whether each is the first and the last of some that stand in no loop."""
+    for straight, run in groupby(statements, lambda s: isinstance(s, Assign | Require)):
+        block = tuple(run)
+        for place, top in enumerate(block):
+            yield top, straight and place == 0, straight and place == len(block) - 1
