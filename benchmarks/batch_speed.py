@@ -4,13 +4,15 @@
 
 Both from the scene's own C, without reading outputs; the arms differ. One after another: the kernel as emitted, own
 sines too. gcc -O3 -march=native without fused multiply-add, processor time of one thread, by turns; ratios within a
-round, then their median. What a second thread gains is told by the clock on the wall, and wants an idle machine.
+round, then their median. What a second thread gains is told by the clock on the wall: on an idle machine only.
 `--update` writes the table into docs/batch.md.
 """
 
 from __future__ import annotations
 
 import argparse
+import math
+import os
 import statistics
 import time
 from pathlib import Path
@@ -35,10 +37,12 @@ ARMS = 512
 ROUNDS = 15
 _SECONDS = 0.05
 """Of processor time, about, that a round of a batch takes."""
+_BUSY = 0.5
+"""Mean load of the machine at the start above which a second thread has no processor of its own."""
 
 
-def measured(scene: Scene, rounds: int) -> dict[str, object]:
-    """Return one row: nanoseconds per arm, link and step, and ratios."""
+def measured(scene: Scene, rounds: int, idle: bool) -> dict[str, object]:
+    """Return one row: nanoseconds per arm, link and step, and ratios; what threads gain where the machine is idle."""
     program = build_program(scene)
     batch = compile_batch(program, scene)
     kernel = compile_kernel(program, scene, flags=("-O3", *FLAGS[1:], *machine_flags("gcc")))
@@ -63,7 +67,7 @@ def measured(scene: Scene, rounds: int) -> dict[str, object]:
         many = 1e9 * (seconds(steps, 1) - seconds(0, 1)) / (steps * ARMS)
         together.append(many * per_link)
         ratios.append(many / one)
-        if processors() > 1:
+        if idle and processors() > 1:
             gains.append(seconds(steps, 1, time.perf_counter) / seconds(steps, 2, time.perf_counter))
     return {
         "scene": scene.name,
@@ -77,16 +81,22 @@ def measured(scene: Scene, rounds: int) -> dict[str, object]:
 def told(rows: list[dict[str, object]], rounds: int) -> str:
     """Return the rows as a table of the page."""
     lines = [
-        f"Medians of {rounds} rounds of {ARMS} arms; times are of one thread.",
+        f"Medians of {rounds} rounds of {ARMS} arms; times are of one thread. A dash: others were busy on this machine.",
         "",
         "| scene | side by side | ns per arm, link and step | over one after another | two threads |",
         "| --- | --- | ---: | ---: | ---: |",
     ]
     lines += [
-        f"| `{row['scene']}` | {row['numbers']} | {row['ns']:.2f} | {row['ratio']:.3f} | {row['threads']:.2f} |"
+        f"| `{row['scene']}` | {row['numbers']} | {row['ns']:.2f} | {row['ratio']:.3f} | {gained(row['threads'])} |"
         for row in rows
     ]
     return "\n".join(lines)
+
+
+def gained(times: object) -> str:
+    """Return what a second thread gains, or a dash."""
+    assert isinstance(times, float)
+    return "–" if math.isnan(times) else f"{times:.2f}"
 
 
 def main() -> None:
@@ -98,12 +108,13 @@ def main() -> None:
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
     rows: list[dict[str, object]] = []
+    idle = os.getloadavg()[0] < _BUSY
     with progress("arms side by side", len(SCENES) * len(LANES)) as advance:
         for path in SCENES:
             for lanes, real in LANES:
                 changes = {"emit.batch": lanes, "emit.real": real, "emit.trigonometry": "own"}
                 scene = load_scene(ROOT / f"{path}.toml").replace(**{"emit.parameters": "free", **changes})
-                rows.append(measured(scene, given.rounds))
+                rows.append(measured(scene, given.rounds, idle))
                 advance()
     columns = [
         "scene",
