@@ -81,7 +81,8 @@ def measured(scene: Scene, rounds: int, idle: bool) -> dict[str, object]:
 def told(rows: list[dict[str, object]], rounds: int) -> str:
     """Return the rows as a table of the page."""
     lines = [
-        f"Medians of {rounds} rounds of {ARMS} arms; times are of one thread. A dash: others were busy on this machine.",
+        f"Medians of {rounds} rounds of {ARMS} arms; times are of one thread. "
+        "A dash: others were busy on this machine.",
         "",
         "| scene | side by side | ns per arm, link and step | over one after another | two threads |",
         "| --- | --- | ---: | ---: | ---: |",
