@@ -18,7 +18,7 @@ from mpc_solvers.stage import Stage
 OPTIONS: dict[str, Any] = {
     "print_level": 0,
     "tol": 1e-6,
-    # the last solution is where to start: from its own 0.1 it takes twice the iterations
+    # the last solution is where to start: in the plane it takes twice the iterations from its own first one
     "mu_init": 1e-6,
 }
 
