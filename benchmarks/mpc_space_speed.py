@@ -58,7 +58,7 @@ SAMPLES: dict[str, dict[int, int]] = {
     "do-mpc (IPOPT), tuned, C": {13: 12, 23: 0},
 }
 """What the others are given, by joints, else the whole loop: with 23 joints only what is fastest with 13. do-mpc as its
-documentation sets it up is not among them: it takes memory and minutes for CasADi's own Hessian of the whole horizon."""
+documentation sets it up is not among them: CasADi's own Hessian of the whole horizon takes it memory and minutes."""
 IN_SPACE = {"CasADi fatrop, C": Other(Fatrop)}
 IN_SPACE |= {name: Other(OTHERS[name].make, samples) for name, samples in SAMPLES.items()}
 WITHOUT_WALL = ("CasADi sqpmethod + hpipm, C", "CasADi fatrop, C")
