@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import count, groupby
+from itertools import count
 
 import sympy as sp
 
@@ -19,48 +19,16 @@ from tmm_gen.emit.c.given import given_element
 from tmm_gen.emit.c.guard import Sums, sums_of
 from tmm_gen.emit.c.handed import handed_at
 from tmm_gen.emit.c.leaving import Leaving
+from tmm_gen.emit.c.loops import ends_of_straight, loop_head, station_index
 from tmm_gen.emit.c.pair import PairPrinter, is_pair
 from tmm_gen.emit.c.printer import CPrinter, element_at
 from tmm_gen.emit.c.scalars import Placement, place_scalars
+from tmm_gen.emit.c.sources import SOURCES
 from tmm_gen.emit.c.structs import described, dimension
 from tmm_gen.emit.c.words import sentence
 from tmm_gen.emit.expressions import element
-from tmm_gen.program.statements import Assign, Loop, Mark, Order, Program, Repeat, Require, Routine, Statement
+from tmm_gen.program.statements import Assign, Loop, Mark, Program, Repeat, Require, Routine, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
-
-SOURCES: dict[str, dict[Role, str]] = {
-    "prepare": {Role.STEP: "", Role.PARAMETER: "params->", Role.COEFFICIENT: "model->"},
-    "initialise": {
-        Role.STEP: "",
-        Role.GIVEN: "",
-        Role.PARAMETER: "params->",
-        Role.INPUT: "inputs->",
-        Role.STATE: "state->",
-    },
-    "step": {
-        **dict.fromkeys((Role.STEP, Role.PARAMETER, Role.COEFFICIENT), "model->"),
-        Role.INPUT: "inputs->",
-        Role.STATE: "state->",
-    },
-    "output": {
-        **dict.fromkeys((Role.STEP, Role.PARAMETER, Role.COEFFICIENT), "model->"),
-        Role.STATE: "state->",
-        Role.OUTPUT: "outputs->",
-    },
-    "linearise": {
-        **dict.fromkeys((Role.STEP, Role.PARAMETER, Role.COEFFICIENT), "model->"),
-        Role.INPUT: "inputs->",
-        Role.STATE: "state->",
-        Role.POINT: "point->",
-    },
-    "tangent": {
-        **dict.fromkeys((Role.STEP, Role.PARAMETER, Role.COEFFICIENT), "model->"),
-        Role.POINT: "point->",
-        Role.INPUT_TANGENT: "causes->",
-        Role.TANGENT: "changes->",
-    },
-}
-"""For each kind of function, where variables of a role are found."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +42,7 @@ class Body:
     routine : Routine
         One of its routines.
     kind : str
-        Key of :data:`SOURCES`.
+        Key of :data:`~tmm_gen.emit.c.sources.SOURCES`.
     real : Real
         Number type.
     own_circle : bool
@@ -186,7 +154,7 @@ class Body:
         for section in self.routine.sections:
             yield ""
             yield from comment(sentence(section.title), depth)
-            for top, first, last in _ends_of_straight(section.statements):
+            for top, first, last in ends_of_straight(section.statements):
                 if first:
                     yield from self._opened(depth)
                     straight = self._kept(straight, names)
@@ -198,11 +166,11 @@ class Body:
                     yield from self._ahead(top, depth)
                     checked = self._checked_ahead(top)
                     if checked:
-                        yield f"{INDENT * depth}{self._loop_head(top)} {{"
+                        yield f"{INDENT * depth}{loop_head(top, self.program)} {{"
                         for angle in checked:
                             yield from self._leaving.in_range(printer.text(angle), depth + 1)
                         yield f"{INDENT * depth}}}"
-                    yield f"{INDENT * depth}{self._loop_head(top)} {{"
+                    yield f"{INDENT * depth}{loop_head(top, self.program)} {{"
                     yield from self._opened(depth + 1)
                     inside = depth + 1 + self._deeper
                     turns = Turns(names)
@@ -318,10 +286,7 @@ class Body:
         return sums_of(self.routine) if self.judged else None
 
     def _last(self, entry: int) -> str:
-        """Return an index of a station, in terms of the kernel's macro where it is the last."""
-        return (
-            f"{macros(self.program.name)}_STATIONS - 1" if entry == self.program.stations - 1 else str(entry)
-        )
+        return station_index(entry, self.program)
 
     def _judged(self, assign: Assign, printer: CPrinter) -> str:
         """Return a number that is finite only if what an assignment has set is, whose parts may be two."""
@@ -363,16 +328,6 @@ class Body:
             return [line + remark]
         return [*(comment(described(variable), 1) if variable.doc else ()), line]
 
-    def _loop_head(self, loop: Loop) -> str:
-        stop = (
-            f"{macros(self.program.name)}_STATIONS" if loop.stop == self.program.stations else str(loop.stop)
-        )
-        by = f" += {loop.stride}" if loop.stride > 1 else ""
-        if loop.order is Order.OUTWARD:
-            return f"for (int j = {loop.start}; j < {stop}; {f'j{by}' if by else '++j'})"
-        last = str(int(stop) - loop.stride) if stop.isdecimal() else f"{stop} - {loop.stride}"
-        return f"for (int j = {last}; j >= {loop.start}; {f'j -= {loop.stride}' if by else '--j'})"
-
     def _checked_ahead(self, loop: Loop) -> list[sp.Expr]:
         """Return the angles of a loop that are checked in one of their own before it.
 
@@ -383,11 +338,3 @@ class Body:
         written = {inner.target.variable for inner in loop.body if isinstance(inner, Assign)}
         angles = dict.fromkeys(angle for inner in loop.body for angle in angles_in(inner.value))
         return [angle for angle in angles if not {ref.variable for ref in refs_in(angle)} & written]
-
-
-def _ends_of_straight(statements: Sequence[Statement]) -> Iterator[tuple[Statement, bool, bool]]:
-    """Yield statements, and whether each is the first and the last of some that stand in no loop."""
-    for straight, run in groupby(statements, lambda s: isinstance(s, Assign | Require)):
-        block = tuple(run)
-        for place, top in enumerate(block):
-            yield top, straight and place == 0, straight and place == len(block) - 1

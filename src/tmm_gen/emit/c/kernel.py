@@ -221,7 +221,7 @@ class Kernel:
         routine : Routine
             Lowered.
         kind : str
-            Key of :data:`tmm_gen.emit.c.body.SOURCES`.
+            Key of :data:`tmm_gen.emit.c.sources.SOURCES`.
         """
         of = self.program.main.name if kind == "linearise" else routine.name
         fence = self.fences.get(of, Fence())

@@ -13,6 +13,7 @@ from itertools import groupby
 from tmm_gen.c_language.names import local_name, macros
 from tmm_gen.c_language.wrap import INDENT, comment, statement
 from tmm_gen.emit.c.body import Body
+from tmm_gen.emit.c.loops import loop_head
 from tmm_gen.emit.c.printer import CPrinter
 from tmm_gen.emit.c.words import sentence
 from tmm_gen.program.passes.dependence import accesses, first_uses
@@ -50,7 +51,7 @@ class LaneBody(Body):
                     continue
                 for loop in group:
                     assert isinstance(loop, Loop)
-                    yield f"{INDENT}{self._loop_head(loop)} {{"
+                    yield f"{INDENT}{loop_head(loop, self.program)} {{"
                     yield from self._for_lanes(loop.body, printer, narrow, 2)
                     yield f"{INDENT}}}"
 
