@@ -66,6 +66,12 @@ def optional_tools() -> dict[str, str]:
 
 
 @pytest.fixture(scope="session", autouse=True)
+def _patient() -> None:
+    """Let commands run for long without a word: on a slow machine standard error is to say no more than on a fast one."""
+    import_module("tmm_gen.cli.console")._QUIET = 1e6
+
+
+@pytest.fixture(scope="session", autouse=True)
 def _quickly_compiled() -> None:
     """Let compiled kernels be optimised less than a user's, where a test does not say how: their bits are the same.
 

@@ -135,7 +135,7 @@ def _outputs(program: Program) -> Iterator[Share]:
     for section in program.output.sections:
         name, _, of = section.title.partition(": ")
         count = sum(_counted([section]).values())
-        yield Share(f"output '{name}'", of, Footprint(0, count, 0, 0, 0))
+        yield Share(f"output '{name.removeprefix('output ')}'", of, Footprint(0, count, 0, 0, 0))
 
 
 def _counted(sections: Iterable[Section]) -> Counter[int | None]:

@@ -138,7 +138,12 @@ class ControllerText:
 
     @property
     def braking(self) -> str:
-        """Torques of the safe law for hubs that turn by 1 rad/s, N m."""
+        """Torques of the safe law for hubs that turn by 1 rad/s, N m, as C has them."""
+        return ", ".join(self.number(-value) for value in np.atleast_1d(self.data.brake))
+
+    @property
+    def braking_told(self) -> str:
+        """The same for people."""
         return ", ".join(f"{-value:.5g}" for value in np.atleast_1d(self.data.brake))
 
     @property
