@@ -67,7 +67,7 @@ def optional_tools() -> dict[str, str]:
 
 @pytest.fixture(scope="session", autouse=True)
 def _patient() -> None:
-    """Let commands run for long without a word: on a slow machine standard error is to say no more than on a fast one."""
+    """Let commands run long without a word: standard error is to say the same on slow machines and on fast ones."""
     import_module("tmm_gen.cli.console")._QUIET = 1e6
 
 

@@ -46,5 +46,7 @@ def test_standard_error_is_empty(name: str, tmp_path: Path) -> None:
         [*tool, *COMMANDS[name]], cwd=tmp_path, env=quiet, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
-    warned = [line for line in done.stderr.splitlines() if not line.endswith(" s so far")]  # on a slow machine
+    warned = [
+        line for line in done.stderr.splitlines() if not line.endswith(" s so far")
+    ]  # on a slow machine
     assert not warned
