@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from tmm_gen.control.condensed import Condensed
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.response import Response, response
+from tmm_gen.control.response import Response, motions, response
 from tmm_gen.control.step_model import StepModel
+from tmm_gen.control.walls import Wall
 
 Array = NDArray[np.float64]
 
@@ -29,14 +30,17 @@ class Constant:
         Of the step there.
     end : array, (r, s + m)
         G of the cost to go.
-    walls : int
-        w, how many; what is near them is none of what is kept.
+    places : tuple of int
+        Where the arm's angles are in its state, d of them.
+    walls : tuple of Wall
+        w of them. How the angles answer is kept; what these make of a distance is that of the motion there is.
     """
 
     problem: ControlProblem
     linear: LinearModel
     end: Array
-    walls: int
+    places: tuple[int, ...]
+    walls: tuple[Wall, ...]
 
     @cached_property
     def response(self) -> Response:
@@ -45,19 +49,55 @@ class Constant:
 
     @cached_property
     def condensed(self) -> Condensed:
-        """The program."""
+        """The program, but for its walls, whose rows are zeros."""
         slopes = self.response.slopes
-        distances = np.zeros((self.walls, *slopes.tip.shape[1:]))
+        distances = np.zeros((len(self.walls), *slopes.tip.shape[1:]))
         return Condensed(self.problem, replace(slopes, keep=distances), self.linear.goal)
 
     @cached_property
     def by_estimate(self) -> Array:
-        """What changes of the estimate make of the outputs, (4 m N + r, s + m)."""
-        linear, answer = self.linear, self.response
+        """What changes of the estimate make of the outputs but for walls, (4 m N + r, s + m)."""
+        answer = self.response
+        return np.asarray(np.column_stack([answer.by_state, answer.by_constant]) @ self._until, float)
+
+    @property
+    def _until(self) -> Array:
+        """What changes of the estimate make of it until the horizon begins, (s + m, s + m)."""
+        linear = self.linear
         one = np.eye(linear.size + linear.count)
         one[: linear.size] = np.column_stack([linear.transition, linear.drive])
-        until = np.linalg.matrix_power(one, linear.delay.whole)
-        return np.asarray(np.column_stack([answer.by_state, answer.by_constant]) @ until, float)
+        return np.linalg.matrix_power(one, linear.delay.whole)
+
+    @cached_property
+    def swings(self) -> tuple[Array, Array]:
+        """How the angles answer after each sample: to the torques, (N, d, m N), and to the estimate, (N, d, s + m)."""
+        linear, angles = self.linear, list(self.places)
+        every = np.array([motion[angles] for motion in motions(linear, self.problem.horizon)])
+        begun = linear.size + linear.count
+        return every[:, :, begun + linear.count :], every[:, :, :begun] @ self._until
+
+    def beside_walls(self, angles: Array) -> tuple[Array, Condensed]:
+        """Return what the estimate makes of the outputs, and the program, with walls about a motion.
+
+        How near a part is to a wall changes with the angles by what the arm is shaped like there, and these by the
+        sensitivities that are kept.
+
+        Parameters
+        ----------
+        angles : array, (N, d)
+            Of the arm after each sample of the motion, rad.
+
+        Returns
+        -------
+        by_estimate : array, (4 m N + r + w N, s + m)
+        condensed : Condensed
+        """
+        by_torques, by_estimate = self.swings
+        normals = [wall.slopes(angles)[:, None] for wall in self.walls]
+        nearing = np.array([(normal @ by_torques)[:, 0] for normal in normals])
+        found = [(normal @ by_estimate)[:, 0] for normal in normals]
+        slopes = replace(self.condensed.slopes, keep=nearing)
+        return np.vstack([self.by_estimate, *found]), replace(self.condensed, slopes=slopes)
 
     def about(self, model: StepModel, state: Array, torque: Array) -> Constant:
         """Return those of another rest, of an arm that carries something else.

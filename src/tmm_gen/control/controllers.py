@@ -173,7 +173,7 @@ CONTROLLERS: tuple[ControllerKind, ...] = (
         "RTI, zero order",
         lambda b: RealTimeIteration(b.step, b.links, b.inertia, True),
         quadratic=True,
-        keeps=False,
+        keeps=True,
     ),
     ControllerKind(
         "rti",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,24 +54,10 @@ def response(model: LinearModel, horizon: int, end: Array) -> Response:
     """
     size, count = model.size, model.count
     outputs = np.vstack([model.tip, model.tip_rate, model.hub, model.hub_rate])
-    state, last, constant = np.eye(size), np.zeros((size, count)), np.zeros((size, count))
-    by_torque = np.zeros((size, count, horizon))
     rows = np.zeros((len(outputs), horizon, size + 2 * count + count * horizon))
-
-    def together() -> Array:
-        return np.column_stack([state, constant, last, by_torque.reshape(size, -1)])
-
-    for stage in range(horizon):
-        state = model.transition @ state
-        last = model.transition @ last + (model.before if stage == 0 else 0.0)
-        constant = model.transition @ constant + model.drive
-        by_torque = np.tensordot(model.transition, by_torque, 1)
-        # a torque acts in its own sample, and before the next one's does
-        if stage:
-            by_torque[:, :, stage - 1] += model.before
-        by_torque[:, :, stage] += model.then
-        rows[:, stage] = outputs @ together()
-    left = end[:, :size] @ together()
+    for stage, motion in enumerate(motions(model, horizon)):
+        rows[:, stage] = outputs @ motion
+    left = end[:, :size] @ motion
     left[:, size : size + count] += end[:, size:]
     left[:, size + 2 * count :].reshape(len(left), count, horizon)[:, :, -1] += end[:, size:]
     rows = np.vstack([*rows, left])
@@ -80,6 +67,34 @@ def response(model: LinearModel, horizon: int, end: Array) -> Response:
         by_last=rows[:, size + count : size + 2 * count],
         slopes=split_outputs(rows[:, size + 2 * count :], (count, horizon)),
     )
+
+
+def motions(model: LinearModel, horizon: int) -> Iterator[Array]:
+    """Yield how the state after each of N samples answers, (s, s + 2 m + m N).
+
+    Columns are the state at the start, torques of 1 N m throughout, those chosen before the horizon, then those of the
+    horizon, motor by motor.
+
+    Parameters
+    ----------
+    model : LinearModel
+        By links or by modes.
+    horizon : int
+        N, samples.
+    """
+    size, count = model.size, model.count
+    state, last, constant = np.eye(size), np.zeros((size, count)), np.zeros((size, count))
+    by_torque = np.zeros((size, count, horizon))
+    for stage in range(horizon):
+        state = model.transition @ state
+        last = model.transition @ last + (model.before if stage == 0 else 0.0)
+        constant = model.transition @ constant + model.drive
+        by_torque = np.tensordot(model.transition, by_torque, 1)
+        # a torque acts in its own sample, and before the next one's does
+        if stage:
+            by_torque[:, :, stage - 1] += model.before
+        by_torque[:, :, stage] += model.then
+        yield np.column_stack([state, constant, last, by_torque.reshape(size, -1)])
 
 
 def split_outputs(stacked: Array, shape: tuple[int, ...], walls: int = 0) -> Outputs:

@@ -7,8 +7,6 @@ optimal feedback control of systems governed by large differential algebraic equ
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,11 +17,12 @@ from tmm_gen.control.delay import Pair
 from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.movable import Movable
+from tmm_gen.control.prepared import Prepared
 from tmm_gen.control.qp import QuadraticProgram
 from tmm_gen.control.response import Response, split_outputs
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.control.terminal import end_rows
-from tmm_gen.control.walls import Wall, keeps_no_walls
+from tmm_gen.control.walls import Wall
 
 Array = NDArray[np.float64]
 
@@ -36,31 +35,6 @@ TURNED = 0.5
 """How far a joint may turn meanwhile before they are taken anew, rad."""
 MOVING = 1e-3
 """What a reference moves by in a sample that is not about to rest, rad."""
-
-
-@dataclass(frozen=True, eq=False)
-class Prepared:
-    """What a sample's quadratic program needs, before its measurement.
-
-    Parameters
-    ----------
-    estimate : array, (s + m,)
-        State and disturbances that the motion below starts from, before the look over the delay.
-    read : tuple of int
-        Which sensors besides the encoders were read in the sample before.
-    along : array, (4 m N + r + w N,)
-        Outputs along the last plan, stacked as :func:`~tmm_gen.control.response.split_outputs` has them.
-    by_estimate : array, (4 m N + r + w N, s + m)
-        What changes of the estimate make of them.
-    condensed : Condensed
-        With the sensitivities by the torques.
-    """
-
-    estimate: Array
-    read: tuple[int, ...]
-    along: Array
-    by_estimate: Array
-    condensed: Condensed
 
 
 class RealTimeIteration(Movable):
@@ -93,10 +67,8 @@ class RealTimeIteration(Movable):
         self.model = self.unchanged = model
         self.linear, self.zero_order = linear, zero_order
         self.end = end_rows(linear, problem.weights)
-        self.walls = [Wall.of(model.scene, keep) for keep in problem.keeps]
-        if zero_order and self.walls:
-            raise keeps_no_walls(model.scene, "rti-zero", "rti")
-        self._unladen = Constant(problem, linear, self.end, len(self.walls))
+        self.walls = tuple(Wall.of(model.scene, keep) for keep in problem.keeps)
+        self._unladen = Constant(problem, linear, self.end, tuple(model.places("angle")), self.walls)
         self._use(self._unladen)
         kind = NonlinearFilter if zero_order else ExtendedKalmanFilter
         super().__init__(problem, kind(model, linear), model.delay, inertia)
@@ -119,7 +91,7 @@ class RealTimeIteration(Movable):
 
     @property
     def by_estimate(self) -> Array:
-        """What changes of the estimate make of the outputs there, (4 m N + r, s + m)."""
+        """What changes of the estimate make of the outputs there but for walls, (4 m N + r, s + m)."""
         return self.constant.by_estimate
 
     def reset(self) -> None:
@@ -166,7 +138,7 @@ class RealTimeIteration(Movable):
         self._about: Prepared | None = None
 
     def _shift(self) -> None:
-        if self.zero_order and self.model.carries:
+        if self.zero_order and (self.model.carries or self.walls):
             self._keep_up()
         low, high = (bound[:, None] for bound in self.problem.torque)
         self._plan = np.clip(np.hstack([self._plan[:, 1:], self._plan[:, -1:]]), low, high)
@@ -179,8 +151,9 @@ class RealTimeIteration(Movable):
     def _rolled_out(self) -> Prepared:
         """Return what the program needs, about the motion from the estimate as it is."""
         known = self.delay.known(self._past)
-        along, by_start, condensed = self._along(*self.estimator.ahead(known), self._past[-1])
-        by_estimate = self.by_estimate if by_start is None else by_start @ self._until(known)
+        along, by_estimate, condensed = self._along(*self.estimator.ahead(known), self._past[-1])
+        if not self.zero_order:
+            by_estimate = by_estimate @ self._until(known)
         return Prepared(np.append(*self.estimator.ahead([])), self._read, along, by_estimate, condensed)
 
     def _until(self, known: list[Pair]) -> Array:
@@ -240,7 +213,7 @@ class RealTimeIteration(Movable):
         self._plan = plan + solution.point[: plan.size].reshape(plan.shape)
         return Command(self._plan[:, 0], solution.status, solution.iterations)
 
-    def _along(self, state: Array, disturbance: Array, last: Array) -> tuple[Array, Array | None, Condensed]:
+    def _along(self, state: Array, disturbance: Array, last: Array) -> tuple[Array, Array, Condensed]:
         """Roll out along the plan from a state at which it begins to act; with arguments as for :meth:`decide`.
 
         Returns
@@ -248,7 +221,8 @@ class RealTimeIteration(Movable):
         along : array, (4 m N + r + w N,)
             Outputs, stacked.
         by_start : array, (4 m N + r + w N, s + m)
-            What changes of state and disturbance make of them; nothing of zero order.
+            What changes of state and disturbance make of them; of zero order, of the estimate before the look over the
+            delay.
         condensed : Condensed
             With the sensitivities by the torques.
         """
@@ -262,7 +236,8 @@ class RealTimeIteration(Movable):
             [(self.rows @ states).ravel(), self.end @ left, *(wall.along(angles) for wall in self.walls)]
         )
         if self.zero_order:
-            return along, None, self.prepared
+            kept = self.constant
+            return along, *(kept.beside_walls(angles) if self.walls else (kept.by_estimate, kept.condensed))
         return along, *self._linearised(state, states, inputs)
 
     def _linearised(self, state: Array, states: Array, inputs: Array) -> tuple[Array, Condensed]:

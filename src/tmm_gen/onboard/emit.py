@@ -8,7 +8,6 @@ from tmm_gen.control.bench import Bench
 from tmm_gen.control.condensed import Condensed
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.rti import RealTimeIteration
-from tmm_gen.control.walls import keeps_no_walls
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.example_arm import example_arm
 from tmm_gen.onboard.linear import emit_linear_mpc
@@ -63,14 +62,11 @@ def emit_controller(
             f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}"
         )
     if controller in LINEAR and not bench.problem.motors.on_hub:
-        keeping = ("rti",) if bench.problem.keeps else EMITTED
-        others = ", ".join(each for each in keeping if each not in LINEAR)
+        others = ", ".join(each for each in EMITTED if each not in LINEAR)
         raise UserError(
             f"the controller '{controller}' is written in C for arms on a hub only; for motors by name "
             f"take one of: {others}"
         )
-    if bench.problem.keeps and controller != "rti":
-        raise keeps_no_walls(bench.scene, controller, "rti")
     name = name or f"{bench.scene.name}_{controller.replace('-', '_')}"
     taken = {"daqp": "the solver's files", bench.scene.name: "the arm's own functions"}
     if name in taken and (name == "daqp" or controller not in LINEAR):

@@ -66,8 +66,18 @@ class RtiText(ControllerText):
 
     @property
     def renews(self) -> bool:
-        """Whether sensitivities of zero order are found while it runs, as they must be where the payload changes."""
-        return self.carries and not self.full
+        """Whether sensitivities of zero order are found while it runs: where the payload changes, or there are walls."""
+        return (self.carries or self.keeps_answers) and not self.full
+
+    @property
+    def keeps_answers(self) -> bool:
+        """Whether those of all angles are kept, so that walls are found about the plan."""
+        return bool(self.walls) and not self.full
+
+    @property
+    def answered(self) -> int:
+        """Outputs that go with angles and rates alone, so that their answers are kept: all but those at walls."""
+        return len(self.outputs) - len(self.walls)
 
     @property
     def renewal(self) -> tuple[float, float, float, float]:
@@ -202,10 +212,8 @@ class RtiText(ControllerText):
         state : str
             What stands before the state's members.
         """
-        if output[0] == "keep" and self.in_space:
-            return f"along({output[1]}, {state}angle, 0)"
         if output[0] == "keep":
-            return f"along(normals[{output[1]}], {state}angle, {self.reach(self.walls[output[1]])})"
+            return f"along({output[1]}, {state}angle, 0)"
         name, motor = output[0], self.problem_motors[output[1]]
         values = f"{state}{'rate' if name.endswith('rate') else 'angle'}"
         if not self.several:
@@ -244,8 +252,8 @@ class RtiText(ControllerText):
 
     @property
     def output_weights(self) -> str:
-        """Weights of the outputs, a list of numbers."""
-        return ", ".join(self.number(value) for value in self.data.weights)
+        """Weights of the outputs but for walls, which have none, a list of numbers."""
+        return ", ".join(self.number(value) for value in self.data.weights[: self.answered])
 
     @property
     def output_targets(self) -> str:
@@ -256,6 +264,11 @@ class RtiText(ControllerText):
     def row_kinds(self) -> tuple[Kind, ...]:
         """What the rows of the program bound, N each."""
         return self.data.kinds
+
+    @property
+    def steady_kinds(self) -> list[Kind]:
+        """Those that are made of the answers that are kept."""
+        return [kind for kind in self.row_kinds if kind.what != "keep"]
 
     def place_of(self, kind: Kind) -> int:
         """Return which of the outputs a kind of rows bounds."""
