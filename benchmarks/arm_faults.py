@@ -4,13 +4,12 @@
 
 For up to 50 samples encoders are stuck, lost, absurd or off by turns; the reference jumps, or is to be followed with a
 jump; bounds of torques are crossed, not finite or too narrow to hold the arm; payloads come and go, told or not, or
-told wrongly. Arms in space stand at angles that suit the three joints of examples/space/wall3.toml, and what keeps no
-walls is written without them. Then sensors are true again, and the controller is told the scene's bounds and reference
-and the payload there is. Required is OK within one second, an arm that arrives (0.02 rad) within four, nothing but OK
-from then on or from one second on, and at all times a torque within the bounds in force. Bounds that leave a motor no
-other torque than its largest throw an arm without gears many turns away: where rates are bounded it is to arrive within
-four seconds more than it takes for this way as fast as it may turn. hypothesis draws the cases; exits with 1 if one
-fails.
+told wrongly. Arms in space stand at angles that suit the three joints of examples/space/wall3.toml. Then sensors are
+true again, and the controller is told the scene's bounds and reference and the payload there is. Required is OK within
+one second, an arm that arrives (0.02 rad) within four, nothing but OK from then on or from one second on, and at all
+times a torque within the bounds in force. Bounds that leave a motor no other torque than its largest throw an arm
+without gears many turns away: where rates are bounded it is to arrive within four seconds more than it takes for this
+way as fast as it may turn. hypothesis draws the cases; exits with 1 if one fails.
 """
 
 from __future__ import annotations
@@ -30,7 +29,6 @@ from faulty_loops.drawing import outcomes_of
 
 from tmm_gen.cli.console import plain, table
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.files import write_whole
 from tmm_gen.onboard.emit import EMITTED, LINEAR
 from tmm_gen.scene import load_scene
@@ -106,7 +104,7 @@ def main() -> int:
     scene = load_scene(asked.scene)
     period, rows, bad = Bench.of(scene).problem.sample_time, [], []
     for controller in asked.controller or ("rti",):
-        bench = Bench.of(scene if BY_NAME[controller].keeps else scene.replace(**{"control.keep": []}))
+        bench = Bench.of(scene)
         for real in asked.real or ("float64", "float32"):
             found = outcomes(ArmLoop(bench, controller, real), asked.cases, asked.seed)
             rows.append(row(controller, real, found, period))

@@ -141,10 +141,8 @@ class Aimed:
 
 @cache
 def emitted(name: str, delay: float) -> EmittedController:
-    """Return compiled C that is told a delay; what keeps no walls, without them."""
+    """Return compiled C that is told a delay."""
     scene = load_scene(SCENE).replace(**{"control.delay": delay})
-    if not BY_NAME[name].keeps:
-        scene = scene.replace(**{"control.keep": []})
     found = made(BY_NAME[name], Bench.of(scene), compiled=True)
     assert isinstance(found, EmittedController)
     return found

@@ -2,10 +2,10 @@
 
     python benchmarks/mpc_space_phases.py --update
 
-The arm is that of `examples/space/wall3.toml`, its links of other numbers of cells; `rti-zero` knows no wall, and has
-none. What sensors showed in a closed loop of `rti` with the arm as the scene says is shown again to each controller, by
-turns: medians over the repetitions of each sample, then over the samples. Compiled for this machine, one thread,
-processor time. `--update` renews docs/mpc-speed.md.
+The arm is that of `examples/space/wall3.toml`, its links of other numbers of cells. What sensors showed in a closed
+loop of `rti` with the arm as the scene says is shown again to each controller, by turns: medians over the repetitions
+of each sample, then over the samples. Compiled for this machine, one thread, processor time. `--update` renews
+docs/mpc-speed.md.
 """
 
 from __future__ import annotations
@@ -74,8 +74,7 @@ def phases(cells: Sequence[tuple[int, int]]) -> list[dict[str, object]]:
     nominal = next(case for case in CONDITIONS if case.name == "nominal")
     for each in cells:
         bench = Bench.of(arm_in_space(each))
-        bare = Bench.of(arm_in_space(each, walled=False))
-        made = {kind: emitted(bench if kind == "rti" else bare, kind) for kind in KINDS}
+        made = {kind: emitted(bench, kind) for kind in KINDS}
         heard = Heard(made["rti"])
         run_loop(heard, SpacePlant(bench.scene, bench.problem, nominal, 0), DURATION, timed=False)
         measured = np.array(heard.measured)

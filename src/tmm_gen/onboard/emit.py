@@ -24,8 +24,6 @@ _MOST_LOST = 10.0
 
 def usual_controller(bench: Bench) -> str:
     """Return the controller written in C unless another is chosen: the cheapest there is for the arm and its walls."""
-    if bench.problem.keeps:
-        return "rti"
     return "mpc-modes" if bench.problem.motors.on_hub else "rti-zero"
 
 

@@ -11,29 +11,21 @@ from numpy.typing import NDArray
 from tmm_gen.c_language.names import macros
 from tmm_gen.control.motor_rows import Motor
 from tmm_gen.control.rti import AWAY, FAR, MOVING, TURNED
-from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.terms import Kind
-from tmm_gen.control.walls import Wall
-from tmm_gen.onboard.joint_tables import JointTables
-from tmm_gen.onboard.rti_data import RtiData
-from tmm_gen.onboard.text import ControllerText
+from tmm_gen.onboard.wall_text import WallText
 
 AIM_TURNS = 12
 AIM_TOLERANCE = {"float64": 1e-9, "float32": 1e-4}
 
 
 @dataclass(frozen=True, eq=False)
-class RtiText(ControllerText):
+class RtiText(WallText):
     """What the templates of a real-time iteration ask for.
 
     Parameters
     ----------
-    data : RtiData
-        Tables.
     model : str
         Prefix of the kernel.
-    full : bool
-        Whether sensitivities are computed along the trajectory.
     stages : int
         Instants of a step at which inputs are read.
     inputs_of_kernel : tuple of str
@@ -42,9 +34,7 @@ class RtiText(ControllerText):
         Inputs and outputs whose members have no prefix.
     """
 
-    data: RtiData
     model: str
-    full: bool
     stages: int
     inputs_of_kernel: tuple[str, ...]
     bare_names: list[str]
@@ -66,18 +56,8 @@ class RtiText(ControllerText):
 
     @property
     def renews(self) -> bool:
-        """Whether sensitivities of zero order are found while it runs: where the payload changes, or there are walls."""
+        """Whether sensitivities of zero order are found while it runs: where the payload changes or walls are kept."""
         return (self.carries or self.keeps_answers) and not self.full
-
-    @property
-    def keeps_answers(self) -> bool:
-        """Whether those of all angles are kept, so that walls are found about the plan."""
-        return bool(self.walls) and not self.full
-
-    @property
-    def answered(self) -> int:
-        """Outputs that go with angles and rates alone, so that their answers are kept: all but those at walls."""
-        return len(self.outputs) - len(self.walls)
 
     @property
     def renewal(self) -> tuple[float, float, float, float]:
@@ -181,26 +161,9 @@ class RtiText(ControllerText):
         return ", ".join(told)
 
     @property
-    def walls(self) -> tuple[Wall, ...]:
-        """What parts are to stay on one side of."""
-        return self.data.walls
-
-    @property
     def spans(self) -> NDArray[np.float64]:
         """Lengths of the links, (n,), m."""
         return self.data.motors.lengths
-
-    @property
-    def arm_joints(self) -> JointTables:
-        """Where the joints of an arm in space stand."""
-        assert self.data.joints is not None
-        return self.data.joints
-
-    def reach(self, wall: Wall) -> int:
-        """Return how many links, in space joints, there are up to the part that keeps away from a wall."""
-        if isinstance(wall.frame, SpaceFrame):
-            return len(wall.frame.joints)
-        return int(np.flatnonzero(wall.frame.lengths)[-1]) + 1
 
     def looked(self, output: tuple[str, int], state: str) -> str:
         """Write an output of a state.
@@ -264,11 +227,6 @@ class RtiText(ControllerText):
     def row_kinds(self) -> tuple[Kind, ...]:
         """What the rows of the program bound, N each."""
         return self.data.kinds
-
-    @property
-    def steady_kinds(self) -> list[Kind]:
-        """Those that are made of the answers that are kept."""
-        return [kind for kind in self.row_kinds if kind.what != "keep"]
 
     def place_of(self, kind: Kind) -> int:
         """Return which of the outputs a kind of rows bounds."""

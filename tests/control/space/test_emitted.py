@@ -109,10 +109,11 @@ def test_the_goal_is_reached(bench: Bench, zero: EmittedController) -> None:
     assert not loop.fallbacks
 
 
-def test_a_reference_that_is_followed_is_that_of_python(walled: Bench) -> None:
-    """Full sensitivities, into walls; what cannot be reached leaves the reference as it was, and a step ends it."""
+@pytest.mark.parametrize("kind", ["rti", "rti-zero"])
+def test_a_reference_that_is_followed_is_that_of_python(kind: str, walled: Bench) -> None:
+    """Into walls; what cannot be reached leaves the reference as it was, and a step ends it."""
     late = Bench.of(walled.scene.replace(**{"control.delay": 0.03, "control.bounds.torque_rate": 40.0}))
-    emitted, python = compiled(late, *emit_controller(late, "rti")), in_python(late, "rti")
+    emitted, python = compiled(late, *emit_controller(late, kind)), in_python(late, kind)
     plant, horizon = plant_of(late.scene, late.problem, CONDITIONS[0]), late.problem.horizon
     share = np.clip((np.arange(40) - 3.0) / 16.0, 0.0, 1.0)[:, None]
     way = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)

@@ -46,16 +46,39 @@ def test_how_far_along_the_normal_a_part_is_and_what_turns_it_there(walled: Benc
 
 def test_real_time_iterations_keep_away_from_what_a_regulator_passes(walled: Bench) -> None:
     """The arm that is controlled has more cells than the one thought of, and so bends otherwise."""
-    passing, keeping = compare(walled, [BY_NAME["lqr"], BY_NAME["rti"]], CONDITIONS[:1], duration=0.9)
+    kinds = [BY_NAME[name] for name in ("lqr", "rti", "rti-zero")]
+    passing, *keeping = compare(walled, kinds, CONDITIONS[:1], duration=0.9)
     assert passing.nearest is not None
-    assert keeping.nearest is not None
     assert passing.nearest < -0.1
-    assert keeping.nearest > 0.0
-    assert not keeping.loop.fallbacks
-    angles, fine = keeping.loop.states[-1]["angle"], plant_scene(walled.scene, CONDITIONS[0])
-    for keep in walled.problem.keeps:  # both hold it up, at their margins, softly
-        there = Wall.of(fine, keep).along(angles[None])[0] - keep.offset
-        assert there == pytest.approx(keep.margin, abs=4e-3)
+    fine = plant_scene(walled.scene, CONDITIONS[0])
+    for trial in keeping:
+        assert trial.nearest is not None
+        assert trial.nearest > 0.0
+        assert not trial.loop.fallbacks
+        angles = trial.loop.states[-1]["angle"]
+        for keep in walled.problem.keeps:  # both hold it up, at their margins, softly
+            there = Wall.of(fine, keep).along(angles[None])[0] - keep.offset
+            assert there == pytest.approx(keep.margin, abs=4e-3)
+
+
+def test_what_is_kept_of_a_wall_at_rest_is_what_full_sensitivities_are_there(walled: Bench) -> None:
+    """Along a plan that holds the arm at its reference, where both are about the same motion, a delay before it."""
+    late = Bench.of(walled.scene.replace(**{"control.delay": 0.05}))
+    found = []
+    for zero_order in (False, True):
+        rti = RealTimeIteration(late.step, late.links, late.inertia, zero_order)
+        state, none, held = rti.rest, np.zeros(2), rti.goal.torque
+        rti._plan = np.repeat(held[:, None], late.problem.horizon, axis=1)
+        _, by_start, condensed = rti._along(state, none, held)
+        assert rti.delay.whole > 0
+        known = [(held, held)] * rti.delay.whole
+        rti.estimator.estimate = np.append(state, none)
+        by_estimate = by_start if zero_order else by_start @ rti._until(known)
+        count = len(late.problem.keeps) * late.problem.horizon
+        found.append([condensed.slopes.keep, by_estimate[-count:]])
+    for full, kept in zip(*found, strict=True):
+        assert np.max(np.abs(full)) > 1e-3
+        assert_allclose(kept, full, atol=1e-8 * np.max(np.abs(full)))
 
 
 def test_an_arm_that_starts_far_behind_a_wall_is_told(walled: Bench) -> None:
@@ -70,8 +93,8 @@ def test_an_arm_that_starts_far_behind_a_wall_is_told(walled: Bench) -> None:
 
 
 def test_what_keeps_no_walls_says_so(walled: Bench, words: str) -> None:
-    for name in ("rti-zero", "nmpc", "mpc-links"):
-        with pytest.raises(UserError, match=r":\d+: control\.keep: .* keeps no walls; take rti"):
+    for name in ("nmpc", "mpc-links"):
+        with pytest.raises(UserError, match=r":\d+: control\.keep: .* keeps no walls; take rti-zero, rti"):
             BY_NAME[name].require_able(walled)
     wall = '[[control.keep]]\nframe = "payload"\nnormal = [0, 0, 1]\noffset = -0.3\n'
     assert parse_scene(words + wall, "reach.toml").control
