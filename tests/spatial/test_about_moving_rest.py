@@ -82,7 +82,7 @@ def test_what_acts_on_it_moves_it_as_the_references_matrices_say(seed: int) -> N
     spring, damper = (
         np.diag([*np.zeros(6), *own]) for own in (still.numbers.stiffness, still.numbers.damping)
     )
-    found = swept(still, S, inputs)
+    found = swept(still, S, inputs).moved
     axes = still.numbers.base_facing.T  # of the base in the world's
     for k, s in enumerate(S):
         exact = np.linalg.solve(spring + s * damper + s**2 * world.whole_mass(y), acting)
@@ -102,7 +102,7 @@ def test_places_and_turns_follow_the_base(seed: int) -> None:
         ),
     )
     still = replace(still, numbers=ArmNumbers(arm))
-    whole, read = swept(still, S, inputs_of(still)), space_response(still, S)
+    whole, read = swept(still, S, inputs_of(still)).moved, space_response(still, S)
     axes = still.numbers.base_facing.T
     for k in range(len(S)):
         moved = axes @ whole[k, :3]
@@ -148,7 +148,9 @@ def test_a_prescribed_base_is_a_clamp_that_the_reference_can_move() -> None:
     for k, s in enumerate(S):
         dynamic = spring + s * np.diag(world.damping) + s**2 * mass
         change = np.concatenate([[1.0], np.linalg.solve(dynamic[1:, 1:], -dynamic[1:, 0])])
-        assert apart(swept(resting.still, S, inputs_of(resting.still))[k, 6:, column], change[1:]) < 1e-11
+        assert (
+            apart(swept(resting.still, S, inputs_of(resting.still)).moved[k, 6:, column], change[1:]) < 1e-11
+        )
         assert read["turned"][k, column] == pytest.approx(s)
         frame = next(each for each in arm.frames if each.name == "tip")
         slope = [

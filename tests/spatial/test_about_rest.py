@@ -126,7 +126,7 @@ def test_the_sweep_solves_the_matrices(seed: int) -> None:
     still = drawn(seed)
     linear, inputs = space_matrices(still), inputs_of(still)
     s = np.array([1e-3j, 5.0j, 2.0 + 100.0j])
-    found = swept(still, s, inputs)[:, 6:]  # its base stands still
+    found = swept(still, s, inputs).moved[:, 6:]  # its base stands still
     acting = inputs.torque + np.einsum("bij,bik->jk", still.moves, inputs.force)
     for k, point in enumerate(s):
         # the matrices' own stiffness is symmetric, and loads that turn with bodies are not

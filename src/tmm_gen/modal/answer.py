@@ -20,7 +20,6 @@ from tmm_gen.modal.situation import resting_arm
 from tmm_gen.modal.space.response import space_response
 from tmm_gen.modal.space.situation import resting_in_space
 from tmm_gen.scene import Input, Output, Scene
-from tmm_gen.scene.parts.order import BASE
 from tmm_gen.scene.quantity import INPUT_UNITS
 
 Array = NDArray[np.float64]
@@ -155,13 +154,8 @@ def asked(scene: Scene, source: str | None, target: str | None) -> tuple[Input, 
     UserError
         If there is none of that name, or none at all.
     """
-    # energies go with the square of the motion; what drives or holds a base in space is not found of small motion
-    readable = tuple(
-        item
-        for item in scene.outputs
-        if not scene.quantity(item).of_arm
-        and not (scene.spatial and item.at == BASE and scene.quantity(item).read in ("through", "force"))
-    )
+    # energies go with the square of the motion
+    readable = tuple(item for item in scene.outputs if not scene.quantity(item).of_arm)
     chosen = _chosen(scene, scene.inputs, source, "--from", "[[input]]")
     return chosen, _chosen(scene, readable, target, "--to", "[[output]] of a place")
 

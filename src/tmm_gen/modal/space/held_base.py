@@ -4,37 +4,52 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.modal.space.elements import bodies, hinges, mounts
 from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput, Frame, Revolute, SpatialArm, Turn, Vector
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Turning:
     """How a prescribed base moves by its angle.
 
     Parameters
     ----------
-    column : str
-        Of the input that is its angle.
-    axis : tuple of float, length 3
-        About which it turns, in world axes.
-    through : tuple of float, length 3
-        A point on that axis, m.
+    joint : Revolute
+        What turns as an input says, on ground that stands still.
+    angle : float
+        At which it is held, rad.
     """
 
-    column: str
-    axis: Vector
-    through: Vector
+    joint: Revolute
+    angle: float
 
     @property
+    def column(self) -> str:
+        """Of the input that is its angle."""
+        return self.joint.given
+
+    @cached_property
     def coordinates(self) -> Array:
-        """How the base moves and turns by a unit of its angle, in its own axes and the world's alike, (6,)."""
-        return np.concatenate([np.cross(self.through, self.axis), self.axis])
+        """How the base moves and turns by a unit of its angle, in its own axes and the world's alike, (6,).
+
+        What it takes about its axis is the product with the force and moment that it takes.
+        """
+        axis = np.array(self.joint.turn)[:, self.joint.axis]
+        return np.concatenate([np.cross(self.joint.at, axis), axis])
+
+    @cached_property
+    def body(self) -> Array:
+        """Force and moment about the world's origin that the base's own body takes per acceleration, (6, 6)."""
+        through = hinges([self.joint.axis], np.array([self.angle]))[0][0] @ mounts([self.joint])[0]
+        found: Array = through.T @ bodies([self.joint.body])[0] @ through
+        return found
 
 
 def held_base(arm: SpatialArm, angle: float) -> tuple[SpatialArm, Turning | None]:
@@ -54,7 +69,6 @@ def held_base(arm: SpatialArm, angle: float) -> tuple[SpatialArm, Turning | None
         return arm, None
     base = arm.joints[given - 1]
     turn = np.array(base.turn) @ _about(base.axis, angle)
-    x, y, z = np.array(base.turn)[:, base.axis].tolist()
 
     def number(old: int) -> int:
         return 0 if old == given else old - (old > given)
@@ -85,7 +99,7 @@ def held_base(arm: SpatialArm, angle: float) -> tuple[SpatialArm, Turning | None
         inputs=tuple(signal(item) for item in arm.inputs),
         outputs=tuple(read(item) for item in arm.outputs),
     )
-    return held, Turning(base.given, (x, y, z), base.at)
+    return held, Turning(base, angle)
 
 
 def _about(axis: int, angle: float) -> Array:

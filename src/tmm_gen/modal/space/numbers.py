@@ -85,8 +85,11 @@ class ArmNumbers:
 
     @cached_property
     def base_body(self) -> Array:
-        """Force and moment that the base itself takes per acceleration, (6, 6); zero where it is held."""
-        return bodies([self.arm.base.body])[0] if self.arm.base else np.zeros((6, 6))
+        """Force and moment that the base's own body takes per acceleration, (6, 6); zero where it never turns."""
+        if self.arm.base:
+            own: Array = bodies([self.arm.base.body])[0]
+            return own
+        return self.turning.body if self.turning else np.zeros((6, 6))
 
     @cached_property
     def base_facing(self) -> Array:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from tmm_gen.derive.space.pose import quaternion_product
 from tmm_gen.modal.blocks import filler
 from tmm_gen.modal.space.still import Still
-from tmm_gen.modal.space.sweep import Inputs, inputs_of, swept
+from tmm_gen.modal.space.sweep import Inputs, Swept, inputs_of, swept
 from tmm_gen.program.space.turns import quaternion_of
 from tmm_gen.scene.spatial.arm import ArmOutput, Frame
 
@@ -55,20 +55,24 @@ def space_response(still: Still, s: ArrayLike) -> dict[str, Complex]:
 
 
 def answers(output: ArmOutput) -> bool:
-    """Whether an output is read off small motion: no energy, which goes with its square, nor what moves a base."""
-    if output.quantity.read == "through":
-        return output.joint > 0
-    return output.quantity.read not in ("energy", "force")
+    """Whether an output is read off small motion: no energy, which goes with its square."""
+    return output.quantity.read != "energy"
 
 
-def _read(still: Still, inputs: Inputs, s: Complex, whole: Complex, output: ArmOutput) -> dict[str, Complex]:
-    factor, angles = (s**output.quantity.order)[:, None], whole[:, 6:]
+def _read(still: Still, inputs: Inputs, s: Complex, whole: Swept, output: ArmOutput) -> dict[str, Complex]:
+    factor, angles = (s**output.quantity.order)[:, None], whole.moved[:, 6:]
     if output.quantity.read == "bend":
         turning = still.numbers.turning
         if output.joint or turning is None:
             return {output.name: factor * sum(angles[:, number - 1] for number in output.turning)}
         own = np.equal(inputs.columns, turning.column)  # the base's own angle
         return {output.name: factor * own}
+    if output.quantity.read == "force":
+        values = whole.taken[:, :3] + np.cross(inputs.base[3:], _held_force(still)[:, None], axis=0)
+        return {name: values[:, k] for k, name in enumerate(output.columns)}
+    if output.quantity.read == "through" and not output.joint:  # what drives a base that an input turns
+        assert still.numbers.turning is not None
+        return {output.name: still.numbers.turning.coordinates @ whole.taken}
     if output.quantity.read == "through":
         joint = output.passing - 1
         law = still.numbers.stiffness[joint] + still.numbers.damping[joint] * s
@@ -77,8 +81,18 @@ def _read(still: Still, inputs: Inputs, s: Complex, whole: Complex, output: ArmO
     moved, turned = still.moved(output.frame)
     turns = len(output.columns) == len("wxyz")
     slopes = small_orientation(still, output.frame, turned) if turns else moved
-    values = factor[:, None] * (slopes @ whole)
+    values = factor[:, None] * (slopes @ whole.moved)
     return {name: values[:, k] for k, name in enumerate(output.columns)}
+
+
+def _held_force(still: Still) -> Array:
+    """Return the force that a base held still exerts, (3,), N, in world axes: those of the base turn against them."""
+    numbers = still.numbers
+    found = numbers.base_body[:3, :3] @ -numbers.gravity
+    for joint, host in enumerate(numbers.hosts):
+        if host < 0:
+            found += (still.through[joint].T @ still.forces[joint])[:3]
+    return found
 
 
 def small_orientation(still: Still, frame: Frame, turned: Array) -> Array:

@@ -44,6 +44,23 @@ class Inputs:
     base: Array
 
 
+@dataclass(frozen=True, eq=False)
+class Swept:
+    """What an arm does for a unit of each input.
+
+    Parameters
+    ----------
+    moved : array, (f, 6 + n, m)
+        How the base moves and turns, in its axes, and the joints turn.
+    taken : array, (f, 6, m)
+        By how much force and moment change that what holds or moves the base exerts on it, in axes that turn with it;
+        none, but for rounding, on a base that floats.
+    """
+
+    moved: Complex
+    taken: Complex
+
+
 def inputs_of(still: Still) -> Inputs:
     """Return the inputs of an arm where it rests."""
     numbers = still.numbers
@@ -67,8 +84,8 @@ def inputs_of(still: Still) -> Inputs:
     return Inputs(columns, torque, force, on_base, base)
 
 
-def swept(still: Still, s: Complex, inputs: Inputs) -> Complex:
-    """Return how the base moves and turns, in its axes, and the joints turn for a unit of each input, (f, 6 + n, m).
+def swept(still: Still, s: Complex, inputs: Inputs) -> Swept:
+    """Return what an arm does for a unit of each input.
 
     Parameters
     ----------
@@ -109,8 +126,6 @@ def swept(still: Still, s: Complex, inputs: Inputs) -> Complex:
         left[:, row] = law[j][:, None] * lacking + inputs.torque[j]
         kept.append((admittance[:, None] * about, lacking))
         host = numbers.hosts[j]
-        if host < 0 and not numbers.floats:
-            continue
         back = still.through[j].T
         passed, carried = back @ _moved(still, j, freed, square), back @ left
         if host < 0:
@@ -121,7 +136,7 @@ def swept(still: Still, s: Complex, inputs: Inputs) -> Complex:
         biases[host] = carried if biased is None else biased + carried
     kept.reverse()
     base = _floating(whole, left_over, square) if numbers.floats else _turning(still, inputs, square)
-    return _outward(still, square, pushes, kept, base)
+    return Swept(_outward(still, square, pushes, kept, base), whole @ base[0] + left_over)
 
 
 def _floating(whole: Complex, left: Complex, square: Complex) -> tuple[Complex, Complex]:
