@@ -1,114 +1,37 @@
-"""Routines as the bodies of C functions."""
+"""Statements of routines as those of C functions."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import count
 
 import sympy as sp
 
-from tmm_gen.c_language.names import local_name, macros, member
-from tmm_gen.c_language.real import Real
-from tmm_gen.c_language.wrap import INDENT, WIDTH, comment, statement
+from tmm_gen.c_language.names import local_name, macros
+from tmm_gen.c_language.wrap import INDENT, comment, statement
 from tmm_gen.emit.c.circle import Turns, angles_in
-from tmm_gen.emit.c.fence import Fence
 from tmm_gen.emit.c.finite import TOTAL, check
-from tmm_gen.emit.c.given import given_element
+from tmm_gen.emit.c.function import Function
 from tmm_gen.emit.c.guard import Sums, sums_of
 from tmm_gen.emit.c.handed import handed_at
 from tmm_gen.emit.c.leaving import Leaving
 from tmm_gen.emit.c.loops import ends_of_straight, loop_head, station_index
-from tmm_gen.emit.c.pair import PairPrinter, is_pair
+from tmm_gen.emit.c.pair import is_pair
 from tmm_gen.emit.c.printer import CPrinter, element_at
-from tmm_gen.emit.c.scalars import Placement, place_scalars
-from tmm_gen.emit.c.sources import SOURCES
-from tmm_gen.emit.c.structs import described, dimension
 from tmm_gen.emit.c.words import sentence
-from tmm_gen.emit.expressions import element
-from tmm_gen.program.statements import Assign, Loop, Mark, Program, Repeat, Require, Routine, Statement
-from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+from tmm_gen.program.statements import Assign, Loop, Mark, Repeat, Require, Statement
+from tmm_gen.program.variables import Ref, Role, refs_in
 
 
 @dataclass(frozen=True)
-class Body:
-    """The body of one function.
-
-    Parameters
-    ----------
-    program : Program
-        Lowered.
-    routine : Routine
-        One of its routines.
-    kind : str
-        Key of :data:`~tmm_gen.emit.c.sources.SOURCES`.
-    real : Real
-        Number type.
-    own_circle : bool
-        Whether sine and cosine are the kernel's own instead of the C library's.
-    fence : Fence
-        What must stay within bounds.
-    bound : bool
-        Whether parameters and all that follows from them are constants of the file.
-    """
-
-    program: Program
-    routine: Routine
-    kind: str
-    real: Real
-    own_circle: bool = False
-    fence: Fence = field(default_factory=Fence)
-    bound: bool = False
-    judged: bool = False
-    """Whether the new state is added up, for :meth:`verdict` to see whether all of it is finite."""
-    apart: bool = False
-    """Whether loops over independent stations are to stay free of anything that leaves them early."""
-
-    def reads(self, name: str) -> bool:
-        """Whether the function uses one of its pointers."""
-        return any(self._source(v) == f"{name}->" for v in self.routine.read() | self.routine.written())
+class Body(Function):
+    """The body of one function: its statements, checks, and the verdict on the new state."""
 
     def text(self) -> str:
         """Return the statements, indented by one level."""
         return "\n".join(self._lines()).removeprefix("\n")
-
-    # -- where things are ---------------------------------------------------------------------------
-
-    def _source(self, variable: Variable) -> str:
-        if variable.role in (Role.WORK, Role.LOCAL):
-            return ""
-        if variable.role is Role.COEFFICIENT and variable not in self.program.model:
-            return ""  # an intermediate result of prepare
-        if self.bound and variable.role.bound_at_prepare:
-            return ""
-        try:
-            return SOURCES[self.kind][variable.role]
-        except KeyError:
-            raise ValueError(f"{self.routine.name} has no access to {variable.name}") from None
-
-    def _hoisted(self) -> tuple[Variable, ...]:
-        """Return the scalars read inside loops that never change: they go into locals before the first."""
-        inside = {
-            ref.variable
-            for loop in self.routine.statements()
-            if isinstance(loop, Loop)
-            for inner in loop.body
-            for ref in refs_in(inner.value)
-        }
-        constant = inside - self.routine.written()
-        return tuple(
-            v
-            for v in (
-                self.program.step,
-                *self.program.parameters,
-                *self.program.coefficients,
-                *self.program.inputs,
-            )
-            if v in constant and v.length is None and self._source(v)
-        )
-
-    # -- lines --------------------------------------------------------------------------------------
 
     def _lines(self) -> Iterator[str]:
         hoisted = self._hoisted()
@@ -244,11 +167,6 @@ class Body:
         """Return the sines that the next block of straight statements knows."""
         return turns
 
-    @property
-    def _beside(self) -> str:
-        """The dimension of scratch that there is more than once."""
-        return ""
-
     def _marked(self, mark: Mark, printer: CPrinter) -> Iterator[str]:
         """Yield where something repeated begins or ends."""
         if isinstance(mark, Repeat):
@@ -278,10 +196,6 @@ class Body:
         return Leaving(self.program.name, self.real, self.fence)
 
     @cached_property
-    def _placement(self) -> Placement:
-        return place_scalars(self.routine)
-
-    @cached_property
     def _sums(self) -> Sums | None:
         return sums_of(self.routine) if self.judged else None
 
@@ -294,39 +208,6 @@ class Body:
         if not self.real.pair or not is_pair(assign.target.variable):
             return target
         return f"({target}.high + {target}.low)" if isinstance(assign.value, Ref) else f"{target}.high"
-
-    def _printer(self, refer: Callable[[Ref], str]) -> CPrinter:
-        return PairPrinter(refer) if self.real.pair else CPrinter(self.real, refer)
-
-    def _type(self, variable: Variable) -> str:
-        return "pair" if self.real.pair and is_pair(variable) else "real"
-
-    @property
-    def _high(self) -> str:
-        """What stands behind a number to compare it."""
-        return ".high" if self.real.pair else ""
-
-    def _refer(self, ref: Ref, local: frozenset[Variable]) -> str:
-        if ref.variable.role is Role.GIVEN:
-            return given_element(ref, self.real)
-        return element(local_name(ref.variable) if ref.variable in local else self._placed(ref.variable), ref)
-
-    def _placed(self, variable: Variable) -> str:
-        """Return where a variable is: a local one, or a member behind its pointer."""
-        return f"{self._source(variable)}{member(variable, self.program.name)}"
-
-    def _intermediate(self) -> tuple[Variable, ...]:
-        if self.bound:
-            return ()
-        return tuple(v for v in self.routine.variables(Role.COEFFICIENT) if not self._source(v))
-
-    def _declaration(self, variable: Variable) -> list[str]:
-        lengths = self._beside + dimension(variable, self.program)
-        line = f"{INDENT}{self._type(variable)} {local_name(variable)}{lengths};"
-        remark = f" /* {described(variable)} */"
-        if variable.doc and len(line) + len(remark) <= WIDTH:
-            return [line + remark]
-        return [*(comment(described(variable), 1) if variable.doc else ()), line]
 
     def _checked_ahead(self, loop: Loop) -> list[sp.Expr]:
         """Return the angles of a loop that are checked in one of their own before it.
