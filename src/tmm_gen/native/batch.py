@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,8 +18,9 @@ from tmm_gen.native.compiler import FLAGS, compile_library
 from tmm_gen.native.differences import with_derivatives
 from tmm_gen.native.layout import require_sizes, structure_of
 from tmm_gen.native.machine import machine, machine_flags, processors
-from tmm_gen.native.many import Numbers, arm_count, by_arm, columns, numbers, require_known, shares, whole
+from tmm_gen.native.many import Numbers, arm_count, by_arm, columns, numbers, require_known, whole
 from tmm_gen.native.many_inputs import Signal, at_start, sampled, signal_structs
+from tmm_gen.native.shares import shared
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
 from tmm_gen.scene import Scene
@@ -74,10 +74,7 @@ def compile_batch(
     ValueError
         If the scene asks for no batch.
     """
-    starts = program.step in program.initialise.read()
-    harness = render(
-        "c/batch_harness.c.jinja", name=program.name, given=program.given, starts_from_step=starts
-    )
+    harness = render("c/batch_harness.c.jinja", name=program.name)
     files = {**emit_c_batch(program, scene), "c/batch-harness.c": harness}
     if flags is None:
         flags = ("-O3", *FLAGS[1:], *machine_flags(cc))
@@ -111,8 +108,10 @@ class NativeBatch:
         self._structs = {struct.name: struct for struct in structs_of(program)}
         self._types = {name: structure_of(struct, real) for name, struct in self._structs.items()}
         require_sizes(program.name, self._types, handle.batch_sizes)
-        self._run: Any = getattr(handle, f"{program.name}_run_batch")
-        self._run.restype = ctypes.c_long
+        self._start, self._run = (
+            getattr(handle, f"{program.name}_{what}_batch") for what in ("start", "run")
+        )
+        self._start.restype = self._run.restype = ctypes.c_long
 
     @property
     def parameters(self) -> dict[str, NDArray[np.float64]]:
@@ -182,22 +181,38 @@ class NativeBatch:
         }
         count = arm_count(arms, (*program.parameters, *program.given), values, series)
         first = {name: at_start(name, signals[name], array, count) for name, array in series.items()}
-        models, states, status = self._started(count, values, step, first)
-        lost = status.copy()
-        kept = np.full((steps // every + 1, len(program.outputs), count), np.nan, dtype=self._real)
-        if not lost.all():
-            sound = int(np.argmin(lost != 0))  # what could not start has another's place, and its outputs go
-            models[lost != 0], states[lost != 0] = models[sound], states[sound]
-            self._advance(steps, every, models, states, series, kept, status, threads)
-            status = np.where(lost != 0, lost, status)
-            kept[..., lost != 0] = np.nan
+        kept = np.empty((steps // every + 1, len(program.outputs), count), dtype=self._real)
+        status = np.zeros(count, dtype=np.intc)
+        start = self._start_of(count, values, step, first)
+        signals_in_c = signal_structs(program, series)
+        models, states = (
+            np.zeros((count, ctypes.sizeof(self._types[which])), np.uint8) for which in ("model", "state")
+        )
+
+        def run(first: int, end: int) -> None:
+            here, these = slice(first, end), (ctypes.c_long(first), ctypes.c_long(end))
+            arms = (_pointer(models), _pointer(states))
+            none_lost = self._start(*these, *start, *arms, _pointer(status)) == 0
+            begun = status[here].copy()
+            lost = begun != 0
+            if not lost.all():
+                if not none_lost:  # what could not start has another's place
+                    sound = first + int(np.argmin(lost))
+                    models[here][lost], states[here][lost] = models[sound], states[sound]
+                lengths = (ctypes.c_long(steps), ctypes.c_long(every))
+                outcome = (_pointer(kept), _pointer(status))
+                self._run(ctypes.c_long(count), *these, *lengths, *arms, *signals_in_c, *outcome)
+            if not none_lost:
+                status[here][lost], kept[..., here][..., lost] = begun[lost], np.nan
+
+        shared(run, count, threads)
         outputs = {v.name: kept[:, index] for index, v in enumerate(program.outputs)}
         return BatchRun(np.arange(kept.shape[0]) * (every * step), outputs, status)
 
-    def _started(
+    def _start_of(
         self, arms: int, values: Mapping[str, ArrayLike], step: float, first: Mapping[str, Numbers]
-    ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], NDArray[np.intc]]:
-        """Return models, states and statuses of arms that are prepared and started."""
+    ) -> tuple[Any, ...]:
+        """Return what arms are prepared and started from, as arguments of C that keep their memory alive."""
         default = self._types["params"]()
         self._handle.batch_defaults(ctypes.byref(default))
         params = np.tile(np.frombuffer(bytes(default), dtype=self._real), (arms, 1))
@@ -212,46 +227,15 @@ class NativeBatch:
             np.ascontiguousarray(self._of_arms(v, values, arms)) if v.name in values else None
             for v in self.program.given
         ]
-        models, states = (
-            np.zeros((arms, ctypes.sizeof(self._types[which])), np.uint8) for which in ("model", "state")
-        )
-        status = np.zeros(arms, dtype=np.intc)
         number: Any = ctypes.c_float if self._real is np.float32 else ctypes.c_double
-        self._handle.batch_start(
-            ctypes.c_long(arms),
-            _pointer(params),
-            number(step),
-            *(None if start is None else _pointer(start) for start in starts),
-            *map(_pointer, (inputs, models, states, status)),
-        )
-        return models, states, status
+        given = (None if start is None else _pointer(start) for start in starts)
+        return _pointer(params), number(step), *given, _pointer(inputs)
 
     def _of_arms(self, variable: Variable, values: Mapping[str, ArrayLike], arms: int) -> Numbers:
         """Return a parameter or a start in the kernel's numbers, shape (arms, length)."""
         return numbers(variable.name, by_arm(variable, values[variable.name], arms), self._real)
 
-    def _advance(
-        self,
-        steps: int,
-        every: int,
-        models: NDArray[np.uint8],
-        states: NDArray[np.uint8],
-        series: Mapping[str, Numbers],
-        kept: Numbers,
-        status: NDArray[np.intc],
-        threads: int,
-    ) -> None:
-        """Take the steps, each thread some of the arms."""
-        signals = signal_structs(self.program, series)
 
-        def run(share: tuple[int, int]) -> None:
-            numbers = map(ctypes.c_long, (status.size, *share, steps, every))
-            arrays = (_pointer(models), _pointer(states), *signals, _pointer(kept), _pointer(status))
-            self._run(*numbers, *arrays)
-
-        with ThreadPoolExecutor(threads) as pool:
-            list(pool.map(run, shares(status.size, threads)))
-
-
-def _pointer(array: NDArray[Any]) -> ctypes.c_void_p:
-    return ctypes.c_void_p(array.ctypes.data)
+def _pointer(array: NDArray[Any]) -> Any:
+    """Return where an array's numbers are; the array lives as long as what is returned."""
+    return array.ctypes.data_as(ctypes.c_void_p)

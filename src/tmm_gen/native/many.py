@@ -169,11 +169,3 @@ def columns(struct: Struct) -> Iterator[tuple[Variable, slice]]:
         stop = start + (variable.length or 1)
         yield variable, slice(start, stop)
         start = stop
-
-
-def shares(arms: int, workers: int, grain: int = 64) -> Iterator[tuple[int, int]]:
-    """Yield ranges of arms for threads: several for each, all but the last multiples of any number side by side."""
-    blocks = -(-arms // grain)
-    each = arms if workers == 1 else max(1, blocks // (4 * workers)) * grain
-    for first in range(0, arms, each):
-        yield first, min(first + each, arms)
