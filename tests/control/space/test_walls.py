@@ -109,6 +109,31 @@ def test_what_keeps_no_walls_says_so(walled: Bench, words: str) -> None:
             parse_scene(words + wall.replace(old, new), "reach.toml")
 
 
+def test_plans_repeated_at_one_state_keep_the_walls_of_their_own_rollout(walled: Bench) -> None:
+    """From a plan that is all wrong, at an arm on its way into the floor; kept sensitivities end as near to the wall."""
+    state, none, last = walled.step.initial(), np.zeros(2), walled.links.start_torque
+    for quantity, change in (("angle", [0.35, 0.35]), ("rate", [1.0, 0.5])):
+        state[walled.step.places(quantity)] += walled.problem.motors.turned @ np.array(change)
+    floor, edges = walled.problem.keeps[0], []
+    for kind in ("rti", "rti-zero"):
+        rti = BY_NAME[kind].make(walled)
+        assert isinstance(rti, RealTimeIteration)
+        passed, changes = [], []
+        for _ in range(5):
+            before = rti._plan.copy()
+            rti._plan = np.hstack([before[:, :1], before[:, :-1]])  # decide() moves on by a sample
+            rti.decide(state, none, last)
+            along = split_outputs(rti._along(state, none, last)[0], before.shape, len(rti.walls))
+            passed.append(floor.offset + floor.margin - np.min(along.keep[0]))
+            changes.append(np.max(np.abs(rti._plan - before)))
+        assert changes[0] > 5.0
+        assert changes[-1] < 1e-4
+        assert passed[0] < 5e-3  # one iteration has made up for nearly all of it
+        edges.append(passed[-1])
+    assert 0.0 < edges[0] < 1e-3  # softly
+    assert edges[1] == pytest.approx(edges[0], abs=1e-5)
+
+
 def test_plans_keep_bounds_of_how_fast_joints_turn(walled: Bench) -> None:
     """Repeated at one state; without the bounds they would turn half as fast again."""
     peaks = []
