@@ -24,6 +24,7 @@ from tmm_gen.control.walls import Wall
 from tmm_gen.onboard.emit import emit_controller, usual_controller
 from tmm_gen.onboard.native import EmittedController
 from tmm_gen.onboard.weight import Weight, weight_of
+from tmm_gen.scene import parse_scene
 
 pytestmark = pytest.mark.compiler
 
@@ -107,6 +108,30 @@ def test_the_goal_is_reached(bench: Bench, zero: EmittedController) -> None:
     loop = run_loop(zero, plant_of(bench.scene, bench.problem, HEAVIER), 1.6, timed=False)
     assert np.max(np.abs(loop.tip[-1] - loop.goal)) < 2e-3
     assert not loop.fallbacks
+
+
+def test_an_arm_that_carries_nothing_keeps_walls_as_in_python(words: str) -> None:
+    """Nothing but the wall is a row of its program, and nothing but that lets sensitivities be found while it runs."""
+    bare = words[: words.index("[[body]]")] + words[words.index("[[input]]") :]
+    scene = parse_scene(
+        bare.replace('name = "payload"\nat = "payload"', 'name = "end"\nat = "upper"'), "bare.toml"
+    )
+    floor = {"frame": "upper", "normal": [0.4, 0.2, 2.0], "offset": 0.1, "margin": 0.01}
+    bench = Bench.of(scene.replace(**{"control.keep": [floor], "control.horizon": 8}))
+    assert not bench.step.carries
+    emitted, python = compiled(bench, *emit_controller(bench, "rti-zero")), in_python(bench, "rti-zero")
+    plant = plant_of(bench.scene, bench.problem, CONDITIONS[0])
+    for k in range(24):
+        if k == 16:
+            assert emitted.aim(np.array([0.5, 0.1])) is python.aim(np.array([0.5, 0.1])) is Status.OK
+        seen = plant.measured()
+        expected, found = python.command(seen), emitted.command(seen)
+        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=DAQP)
+        assert found.status is expected.status is Status.OK
+        plant.advance(expected.torque)
+    angles = np.array([state["angle"] for state in plant.states])
+    wall = Wall.of(plant.scene, bench.problem.keeps[0])
+    assert -0.01 < np.min(wall.along(angles)) - floor["offset"] < 0.01  # it was met
 
 
 @pytest.mark.parametrize("kind", ["rti", "rti-zero"])

@@ -110,7 +110,7 @@ def test_what_keeps_no_walls_says_so(walled: Bench, words: str) -> None:
 
 
 def test_plans_repeated_at_one_state_keep_the_walls_of_their_own_rollout(walled: Bench) -> None:
-    """From a plan that is all wrong, at an arm on its way into the floor; kept sensitivities end as near to the wall."""
+    """From a plan that is all wrong, at an arm on its way into the floor; both end as near to the wall."""
     state, none, last = walled.step.initial(), np.zeros(2), walled.links.start_torque
     for quantity, change in (("angle", [0.35, 0.35]), ("rate", [1.0, 0.5])):
         state[walled.step.places(quantity)] += walled.problem.motors.turned @ np.array(change)
