@@ -74,7 +74,9 @@ def _patient() -> None:
 
 @pytest.fixture(scope="session", autouse=True)
 def _quickly_compiled() -> None:
-    """Let compiled kernels be optimised less than a user's, where a test does not say how: their bits are the same.
+    """Let compiled kernels and controllers be optimised less than a user's, where a test does not say how.
+
+    Their bits are the same.
 
     What is compiled as a user's is: by commands that run in a process of their own, for functional mock-up units and
     batches, whose bits are compared with these kernels', and by the tests of emitted C.
@@ -83,6 +85,10 @@ def _quickly_compiled() -> None:
     for compiling in (loading.compile_kernel, loading.load_kernel):
         assert compiling.__defaults__ == ("gcc", loading.FLAGS)
         compiling.__defaults__ = ("gcc", ("-O1", *loading.FLAGS[1:]))
+    native = import_module("tmm_gen.onboard.native")
+    made = native.EmittedController.__init__
+    assert made.__defaults__ == ("float64", "gcc", native.FLAGS, 1)
+    made.__defaults__ = ("float64", "gcc", ("-O1", *native.FLAGS[1:]), 1)
 
 
 @pytest.fixture

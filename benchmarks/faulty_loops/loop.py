@@ -22,7 +22,7 @@ from tmm_gen.onboard.native import STATUSES
 from tmm_gen.onboard.text import macro_prefix
 from tmm_gen.program.build import build_program
 
-FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-shared")
+FLAGS = ("-O2", "-ffp-contract=off")
 SUBSTEPS = 16
 """Steps of the arm in a sample: four times as many as the controller thinks of."""
 AFTER = 500
@@ -81,9 +81,11 @@ class FaultyLoop:
         Of the scene.
     controller, real : str
         What is emitted.
+    flags : sequence of str
+        For the compiler.
     """
 
-    def __init__(self, bench: Bench, controller: str, real: str) -> None:
+    def __init__(self, bench: Bench, controller: str, real: str, flags: Sequence[str] = FLAGS) -> None:
         self.problem = bench.problem
         self.gravity = bench.scene.model.gravity or 0.0
         self.sensors = present_sensors(bench.problem)
@@ -102,7 +104,8 @@ class FaultyLoop:
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_text(text)
             sources = [*library_sources(files), "plant.c", "loop.c"]
-            subprocess.run(["gcc", *FLAGS, "-I.", *sources, "-lm", "-o", "l.so"], cwd=scratch, check=True)
+            command = ["gcc", "-std=c99", "-fPIC", "-shared", *flags, "-I.", *sources, "-lm", "-o", "l.so"]
+            subprocess.run(command, cwd=scratch, check=True)
             self._library = ctypes.CDLL(str(Path(scratch, "l.so")))
 
     def run(self, case: Case) -> Outcome:

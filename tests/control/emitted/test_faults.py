@@ -16,6 +16,7 @@ from tmm_gen.onboard.emit import EMITTED
 pytestmark = pytest.mark.compiler
 
 ROOT = Path(__file__).resolve().parents[3]
+FLAGS = ("-O1", "-ffp-contract=off")
 COUNTS = {"mpc-links": 30, "mpc-modes": 30, "rti-zero": 20, "rti": 8}
 
 
@@ -30,7 +31,7 @@ def benchmark_module() -> Iterator[Any]:
 @pytest.mark.parametrize("real", ["float64", "float32"])
 @pytest.mark.parametrize("kind", EMITTED)
 def test_all_come_back(kind: str, real: str, bench: Bench, benchmark_module: Any) -> None:
-    loop = benchmark_module.FaultyLoop(bench, kind, real)
+    loop = benchmark_module.FaultyLoop(bench, kind, real, FLAGS)
     found = benchmark_module.outcomes(loop, COUNTS[kind], number=7)
     bad = [each for each in found if benchmark_module.failed(each[1])]
     assert not bad
@@ -56,7 +57,7 @@ def test_a_controller_that_latches_would_be_seen(bench: Bench, benchmark_module:
 
     original, loops.emit_controller = loops.emit_controller, spoilt
     try:
-        loop = benchmark_module.FaultyLoop(bench, "mpc-modes", "float64")
+        loop = benchmark_module.FaultyLoop(bench, "mpc-modes", "float64", FLAGS)
     finally:
         loops.emit_controller = original
     spell = cases.Spell(30, (cases.STUCK, cases.TRUE, cases.TRUE), (0.0, 0.0, 0.0))
