@@ -263,6 +263,14 @@ def _is_short(item: pytest.Item) -> bool:
     return item.get_closest_marker("long") is None
 
 
+def _is_for_gcc(item: pytest.Item) -> bool:
+    """Return whether a test that asks for one compiler after another is for that which is always there."""
+    called = getattr(item, "callspec", None)
+    return called is not None and any(
+        isinstance(each, str) and each == "gcc" for each in called.params.values()
+    )
+
+
 @pytest.hookimpl(tryfirst=True)  # before -m looks for the marks
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark what takes long, and what wants an optional tool; put the former first, leave repeats out if asked.
@@ -275,7 +283,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             item.add_marker(pytest.mark.long)
         if item.get_closest_marker("xdist_group") is None:
             item.add_marker(pytest.mark.xdist_group(place))
-        if "need_tool" in getattr(item, "fixturenames", ()):
+        if "need_tool" in getattr(item, "fixturenames", ()) and not _is_for_gcc(item):
             item.add_marker(pytest.mark.tools)
     items.sort(key=_is_short)
     if config.getoption("--one-of-each"):

@@ -40,7 +40,11 @@ def test_ci_tests_and_shows_then_looks_for_changes(repository: Path) -> None:
     assert "set -euo pipefail" in lines
     assert script.stat().st_mode & 0o111
     order = [
+        lines.index("tools=$!"),
         next(k for k, line in enumerate(lines) if line.startswith("make lint")),
+        next(k for k, line in enumerate(lines) if line.startswith("make .venv-newest/.installed-core ")),
+        next(k for k, line in enumerate(lines) if line.startswith('wait "$tools" || {')),
+        lines.index('hidden="$(.ci/hide "$scratch/bin")"'),
         next(k for k, line in enumerate(lines) if line.startswith('wait "$lint" || {')),
         next(k for k, line in enumerate(lines) if 'PATH="$hidden" make test' in line),
         next(k for k, line in enumerate(lines) if line.startswith('wait "$install" || {')),
