@@ -27,7 +27,7 @@ from tmm_gen.control.command import Command, Controller, Flags
 from tmm_gen.control.condition import CONDITIONS, Condition
 from tmm_gen.control.controllers import CONTROLLERS
 from tmm_gen.files import write_whole
-from tmm_gen.onboard.emit import EMITTED, LINEAR
+from tmm_gen.onboard.emit import EMITTED
 from tmm_gen.onboard.native import EmittedController
 from tmm_gen.scene import load_scene
 
@@ -50,7 +50,7 @@ def trials(bench: Bench) -> Rows:
     rows: Rows = []
     with progress("conditions", total=len(kinds) * len(cases)) as advance:
         for kind in kinds:
-            in_c = kind.name in EMITTED and kind.name not in LINEAR
+            in_c = kind.name in EMITTED
             controller = made(kind, bench, in_c)
             for case in cases:
                 loop = run_loop(controller, Plant(bench.scene, bench.problem, case), DURATION)

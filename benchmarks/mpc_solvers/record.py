@@ -30,7 +30,7 @@ class Record:
 
     Parameters
     ----------
-    measured : array, (samples, m + 2)
+    measured : array, (samples, 3 m)
     torques, last, disturbances : array, (samples, m)
         N m.
     states : array, (samples, s)

@@ -86,7 +86,7 @@ class CarryingPlant(Plant):
         """Return what the sensors show."""
         shown = super().measured()
         count = 2.0 * np.pi / self.problem.encoders
-        shown[:-2] += np.round(NOISE * self._random.standard_normal(len(count))) * count
+        shown[: len(count)] += np.round(NOISE * self._random.standard_normal(len(count))) * count
         return shown
 
     def advance(self, torque: Array) -> Array:

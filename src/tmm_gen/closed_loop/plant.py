@@ -15,6 +15,7 @@ from tmm_gen.control.condition import Condition
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.prediction import fine_scene
 from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.sensing import Sensing, sites_of
 from tmm_gen.control.target import rest_with
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.build import build_program
@@ -120,6 +121,9 @@ class Plant:
         self._seen = _numbers(self._outputs)
         self.goal, torque = self._start()
         self._torques = [torque] * self._late
+        if not self.motors.on_hub:
+            sites = sites_of(scene, motors_of(scene), problem)
+            self._sensing = Sensing.of(self.scene, self.motors, problem, sites)
 
     def _start(self) -> tuple[Array, Array]:
         """Set the arm where it starts; return polar angles of tips to reach, and the torques that act at first."""
@@ -172,22 +176,27 @@ class Plant:
         self.kernel.initialise(initial_angle=angles, initial_rate=np.full(count, rate))
 
     def measured(self) -> Array:
-        """Return what the sensors show, (m + 2,): NaN where there is none."""
-        sensors, noise, out = self.problem.sensors, self.condition.noise, self.kernel.output()
-        count = 2.0 * np.pi / self.problem.encoders
-        shown = np.full(self.motors.count + 2, np.nan)
+        """Return what the sensors show, (3 m,): NaN where there is none."""
+        motors, step = self.motors, 2.0 * np.pi / self.problem.encoders
+        state, out = self.kernel.state, self.kernel.output()
         # before a gear that gives way, where motors have their encoders
-        hubs = self._hubs(out) if self.motors.on_hub else self.motors.hub @ self.kernel.state["angle"]
-        shown[:-2] = np.round(hubs / count) * count
-        rustle = noise * self._random.standard_normal(2)
-        if sensors.accelerometer is not None:
-            angle = out["last"]
-            across = -out["tip_acceleration_x"] * np.sin(angle)
-            across += (out["tip_acceleration_y"] + self._gravity) * np.cos(angle)
-            shown[-2] = across + sensors.accelerometer * rustle[0]
-        if sensors.strain is not None:
-            shown[-1] = out["root"] + sensors.strain * rustle[1]
-        return shown
+        hubs = self._hubs(out) if motors.on_hub else motors.hub @ state["angle"]
+        behind = self._felt(out) if motors.on_hub else self._sensing.values(*self._motion(state))
+        rustle = self.condition.noise * self._random.standard_normal(2 * motors.count)
+        # NaN as noise where there is no such sensor
+        spreads = np.concatenate([self.problem.accelerometers, self.problem.gauges])
+        return np.concatenate([np.round(hubs / step) * step, behind + spreads * rustle])
+
+    def _felt(self, out: Mapping[str, Any]) -> Array:
+        """Return what accelerometer and strain gauge of an arm on a hub show without noise."""
+        angle = out["last"]
+        across = -out["tip_acceleration_x"] * np.sin(angle)
+        across += (out["tip_acceleration_y"] + self._gravity) * np.cos(angle)
+        return np.array([across, out["root"]])
+
+    @staticmethod
+    def _motion(state: Mapping[str, Any]) -> tuple[Array, Array, Array]:
+        return state["angle"], state["rate"], state["acceleration"]
 
     def advance(self, torque: Array) -> Array:
         """Let a sample pass under torques chosen now.

@@ -88,10 +88,10 @@ class Controller(Protocol):
 
         Parameters
         ----------
-        measured : array, (m + 2,)
-            Hub angles (rad), acceleration across the last link at the tip (m/s^2), bending moment at the root
-            (N m); NaN where there is no such sensor.
-        valid : array of bool, (m + 2,), optional
+        measured : array, (3 m,)
+            Hub angles (rad), accelerations across the last links at the tips (m/s^2), bending moments at the roots
+            (N m), m of each; NaN where there is no such sensor.
+        valid : array of bool, (3 m,), optional
             Which of them to look at; by default all. What is not valid is as good as NaN.
         """
         ...

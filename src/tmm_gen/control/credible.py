@@ -44,9 +44,9 @@ class Credible:
     Parameters
     ----------
     sensors : tuple of int
-        Which there are: m encoders, then accelerometer and strain gauge.
-    surprise : tuple of float, (m + 2,)
-        Of encoders (rad), accelerometer (m/s^2) and strain gauge (N m) against what was expected.
+        Which there are of m encoders, m accelerometers and m strain gauges.
+    surprise : tuple of float, (3 m,)
+        Of encoders (rad), accelerometers (m/s^2) and strain gauges (N m) against what was expected.
     home : array, (m,)
         Hub angles at which the scene starts, rad.
     disturbance : array, (m,)
@@ -73,7 +73,7 @@ class Credible:
         return np.asarray(np.abs(now - before) <= JUMP)
 
     def believed(self, surprise: Array) -> tuple[int, ...]:
-        """Return which sensors to take in, for what they are off what was expected, (m + 2,)."""
+        """Return which sensors to take in, for what they are off what was expected, (3 m,)."""
         return tuple(i for i in self.sensors if abs(float(surprise[i])) <= self.surprise[i])
 
 
@@ -92,17 +92,20 @@ def credible(problem: ControlProblem, home: Array, inertia: Array, length: float
         From base to tip, m.
     """
     low, high = problem.torque
-    assumed = problem.estimator
-    # accelerometer and strain gauge are those of an arm on a hub
-    largest, turned = float(np.max(np.abs([low[0], high[0]]))), float(inertia[0])
-    tip = largest * length / turned if turned > 0.0 else 0.0
+    assumed, gears = problem.estimator, problem.motors.gears
+    largest = np.maximum(np.abs(low), np.abs(high))
+    # all motors together, at the end of the stretched arm
+    tip = float(np.sum(np.divide(largest, inertia, out=np.zeros_like(largest), where=inertia > 0.0))) * length
+    surprise = np.concatenate(
+        [
+            np.maximum(SURPRISE, _SPREADS * assumed.encoder),
+            np.maximum(_FORCES * tip, _SPREADS * assumed.accelerometer),
+            np.maximum(_FORCES * largest * gears, _SPREADS * assumed.strain),
+        ]
+    )
     return Credible(
         sensors=tuple(present_sensors(problem)),
-        surprise=(
-            *(max(SURPRISE, _SPREADS * float(spread)) for spread in assumed.encoder),
-            max(_FORCES * tip, _SPREADS * assumed.accelerometer),
-            max(_FORCES * largest, _SPREADS * assumed.strain),
-        ),
+        surprise=tuple(surprise.tolist()),
         home=home,
         disturbance=high - low,
         rate=JUMP / problem.sample_time,

@@ -32,6 +32,8 @@ class NonlinearFilter:
         self.model, self._motors = model, model.motors
         self._linear, self._stationary = linear, KalmanFilter(linear, model.problem)
         self.gain, self.sensors = self._stationary.gain, self._stationary.sensors
+        self._biased = self._stationary.biased
+        self._unknown = np.zeros(linear.count + len(self._biased))
         self.home, self.start, self.length = linear.start_hub, linear.start_torque, linear.length
         self._more: Callable[[Array], Array] = np.zeros_like
         self._angles, self._rates = model.places("angle"), model.places("rate")
@@ -39,7 +41,7 @@ class NonlinearFilter:
 
     def reset(self) -> None:
         """Start from the scene's initial motion."""
-        self.estimate = np.append(self.model.initial(), np.zeros(self._linear.count))
+        self.estimate = np.append(self.model.initial(), self._unknown)
 
     def turn(self, angle: Array) -> None:
         """Turn hubs by angles, (m,), rad, with all they carry."""
@@ -48,7 +50,7 @@ class NonlinearFilter:
     def rest(self, hub: Array, rate: Array) -> None:
         """Start anew from an arm of the target's shape: where its hubs are, rad, how fast they turn, rad/s, (m,)."""
         state = rest_state(self.model, self._linear)
-        self.estimate = np.append(state, np.zeros(self._linear.count))
+        self.estimate = np.append(state, self._unknown)
         self.estimate[self._angles] += self._motors.turned @ (hub - self._linear.goal.hub)
         self.estimate[self._rates] = self._motors.turned @ rate
 
@@ -73,12 +75,14 @@ class NonlinearFilter:
         self.model, self._more = model, more
 
     def surprise(self, measured: Array) -> Array:
-        """Return how far a measurement is off what is expected, (m + 2,), NaN where there is no sensor."""
+        """Return how far a measurement is off what is expected, (3 m,), NaN where there is no sensor."""
         state, _ = self._parts(self.estimate)
-        return np.asarray(measured - np.array(self.model.sensors(state)).ravel(), float)
+        seen = np.asarray(measured - np.array(self.model.sensors(state)).ravel(), float)
+        seen[self._biased] -= self.estimate[self.model.size + self._linear.count :]
+        return seen
 
     def correct(self, surprise: Array, sensors: tuple[int, ...], most: Array) -> None:
-        """Take in what some sensors are off, (m + 2,); disturbances stay within ``most`` N m, (m,), either way."""
+        """Take in what some sensors are off, (3 m,); disturbances stay within ``most`` N m, (m,), either way."""
         self.estimate = self.estimate + self._stationary.gain_of(sensors) @ surprise[list(sensors)]
         self._limit(most)
 
@@ -99,7 +103,8 @@ class NonlinearFilter:
 
     def _parts(self, estimate: Array) -> tuple[Array, Array]:
         """Return state and disturbances of an estimate, as views of it."""
-        return estimate[: self.model.size], estimate[self.model.size :]
+        size = self.model.size
+        return estimate[:size], estimate[size : size + self._linear.count]
 
     def usable(self, limits: Credible) -> bool:
         """Return whether the estimate can be that of an arm: finite, no link far out of line, none too fast."""
@@ -113,7 +118,11 @@ class NonlinearFilter:
     def _after(self, estimate: Array, torques: Pair) -> Array:
         state, disturbance = self._parts(estimate)
         acting = np.concatenate([torque + disturbance for torque in torques])
-        return np.append(np.array(self.model.sample(state, acting)).ravel(), disturbance)
+        return self._moved_on(np.array(self.model.sample(state, acting)).ravel(), estimate)
+
+    def _moved_on(self, state: Array, estimate: Array) -> Array:
+        """Return an estimate with another state: what is unknown stays."""
+        return np.append(state, estimate[self.model.size :])
 
 
 class ExtendedKalmanFilter(NonlinearFilter):
@@ -142,10 +151,12 @@ class ExtendedKalmanFilter(NonlinearFilter):
 
     def correct(self, surprise: Array, sensors: tuple[int, ...], most: Array) -> None:
         """Take in what some sensors are off; see :class:`NonlinearFilter`."""
-        state, disturbance = self._parts(self.estimate)
+        state, _ = self._parts(self.estimate)
         _, by_state = (np.array(item) for item in self.model.sensor_slopes(state))
         seen = list(sensors)
-        measure = np.hstack([by_state, np.zeros((len(by_state), len(disturbance)))])[seen]
+        measure = np.hstack([by_state, np.zeros((len(by_state), len(self._unknown)))])[seen]
+        for column, sensor in enumerate(self._biased, start=len(state) + self._linear.count):
+            measure[:, column] = np.array(seen) == sensor
         product = measure @ self.covariance
         noise = self._stationary.noise_of(sensors)
         gain = np.linalg.solve(product @ measure.T + noise, product).T
@@ -156,15 +167,15 @@ class ExtendedKalmanFilter(NonlinearFilter):
     def advance(self, torques: Pair, end: Array) -> None:
         """Predict a sample with the torques that act in it, and the one at its end, N m."""
         state, disturbance = self._parts(self.estimate)
-        size, count = len(state), len(disturbance)
+        size, count, unknown = len(state), len(disturbance), len(self._unknown)
         acting = np.concatenate([torque + disturbance for torque in torques])
         after, by_state, by_torques = (np.array(item) for item in self.model.sample_slopes(state, acting))
         drive = by_torques[:, :count] + by_torques[:, count:]
-        transition = np.eye(size + count)
-        transition[:size, :size], transition[:size, size:] = by_state, drive
-        self.estimate = np.append(after.ravel(), disturbance)
+        transition = np.eye(size + unknown)
+        transition[:size, :size], transition[:size, size : size + count] = by_state, drive
+        self.estimate = self._moved_on(after.ravel(), self.estimate)
         spread = transition @ self.covariance @ transition.T
-        grown = self._stationary.driven(np.vstack([drive, np.zeros((count, count))]))
+        grown = self._stationary.driven(np.vstack([drive, np.zeros((unknown, count))]))
         self.covariance = 0.5 * (spread + spread.T) + grown
 
     def usable(self, limits: Credible) -> bool:

@@ -18,18 +18,17 @@ Array = NDArray[np.float64]
 
 _TINY = 1e-12
 """Variance of every state per sample, relative to the torque's: keeps the filter from being too sure."""
+_DRIFT = 0.3
+"""By how much what a sensor behind the encoders is off for long changes per sample, relative to its assumed error."""
 _MOST = 20_000
 _SETTLED = 1e-10
 
 
 def present_sensors(problem: ControlProblem) -> list[int]:
-    """Return which sensors there are: m encoders, then accelerometer and strain gauge."""
-    sensors, count = problem.sensors, problem.count
-    return [
-        *range(count),
-        *([count] if sensors.accelerometer is not None else []),
-        *([count + 1] if sensors.strain is not None else []),
-    ]
+    """Return which of the sensors there are: m encoders, m accelerometers, m strain gauges."""
+    behind = np.concatenate([problem.accelerometers, problem.gauges])
+    count = problem.count
+    return [*range(count), *(count + int(place) for place in np.flatnonzero(~np.isnan(behind)))]
 
 
 class KalmanFilter:
@@ -37,8 +36,11 @@ class KalmanFilter:
 
     ``x+ = A x + B_0 (u_before + d) + B_1 (u_then + d)``, ``d+ = d``, ``y = C x + D (e + d)``,
     torques less the target's.
-    Noise acts on the torque, on the disturbance and on each sensor, as ``[control.estimator]`` says. One thing is not
-    linear: what the swinging arm's centripetal acceleration adds to the accelerometer is taken off its reading.
+    Noise acts on the torque, on the disturbance and on each sensor, as ``[control.estimator]`` says. Accelerometers
+    and strain gauges of arms by parts are off by something that stays: what a payload that nobody told of weighs, and
+    the drift of gauges. It is estimated as well, ``y = C x + D (e + d) + b``, or the arm would rest elsewhere than its
+    encoders say. One thing is not
+    linear: what the swinging arm's centripetal acceleration adds to accelerometers is taken off their readings.
 
     Parameters
     ----------
@@ -52,14 +54,18 @@ class KalmanFilter:
         self.model = model
         self.sensors = present_sensors(problem)
         size, count = model.size, model.count
-        self.transition = np.eye(size + count)
+        self.biased = [] if problem.motors.on_hub else self.sensors[count:]
+        more = len(self.biased)
+        self.transition = np.eye(size + count + more)
         self.transition[:size, :size] = model.transition
-        self.transition[:size, size:] = model.drive
-        self.drive = np.vstack([model.drive, np.zeros((count, count))])
-        self.measure = np.column_stack([model.measure, model.feed])[self.sensors]
+        self.transition[:size, size : size + count] = model.drive
+        self.drive = np.vstack([model.drive, np.zeros((count + more, count))])
+        biases = np.eye(len(self.sensors))[:, len(self.sensors) - more :]
+        self.measure = np.column_stack([model.measure[self.sensors], model.feed[self.sensors], biases])
         self.feed = model.feed[self.sensors]
         self._assumed = problem.estimator
-        spreads = np.array([*self._assumed.encoder, self._assumed.accelerometer, self._assumed.strain])
+        assumed = self._assumed
+        spreads = np.concatenate([assumed.encoder, assumed.accelerometer, assumed.strain])
         self.noise = np.diag(spreads[self.sensors] ** 2)
         self.home, self.start, self.length = model.start_hub, model.start_torque, model.length
         self.gain, self.covariance = self._stationary(tuple(self.sensors))
@@ -68,8 +74,8 @@ class KalmanFilter:
 
     def reset(self) -> None:
         """Start from the scene's initial motion."""
-        self.estimate = np.append(self.model.start, np.zeros(self.model.count))
-        self._direct = np.zeros(self.model.count)
+        self.estimate = np.append(self.model.start, np.zeros(self.model.count + len(self.biased)))
+        self._direct = self.model.start_torque - self.model.goal.torque
 
     def turn(self, angle: Array) -> None:
         """Turn hubs by angles, (m,), rad, with all they carry."""
@@ -79,7 +85,7 @@ class KalmanFilter:
         """Start anew from an arm of the target's shape: where its hubs are, rad, how fast they turn, rad/s, (m,)."""
         model = self.model
         turned = model.turned @ (hub - model.goal.hub)
-        self.estimate = np.append(turned + model.turn @ rate, np.zeros(model.count))
+        self.estimate = np.append(turned + model.turn @ rate, np.zeros(model.count + len(self.biased)))
 
     def hubs(self) -> tuple[Array, Array]:
         """Return angles and rates of the hubs, (m,) each, rad and rad/s."""
@@ -91,7 +97,7 @@ class KalmanFilter:
         return self.model.holds.torque(self.model.goal, hub) - self._parts(self.estimate)[1]
 
     def surprise(self, measured: Array) -> Array:
-        """Return how far a measurement is off what is expected, (m + 2,), NaN where there is no sensor."""
+        """Return how far a measurement is off what is expected, (3 m,), NaN where there is no sensor."""
         model, (state, disturbance) = self.model, self._parts(self.estimate)
         seen = (
             measured
@@ -99,23 +105,29 @@ class KalmanFilter:
             - model.measure @ state
             - model.feed @ (self._direct + disturbance)
         )
-        rate = float(model.tip_rate[-1] @ state)
-        seen[-2] -= rate * rate * float(model.whirl @ state)
+        count, rates = model.count, model.hub_rate @ state
+        seen[count : 2 * count] -= model.swept @ rates @ rates
+        rate = float(model.tip_rate[0] @ state)
+        seen[count] -= rate * rate * float(model.whirl @ state)
+        seen[self.biased] -= self.estimate[model.size + count :]
         return np.asarray(seen, float)
 
     def correct(self, surprise: Array, sensors: tuple[int, ...], most: Array) -> None:
-        """Take in what some sensors are off, (m + 2,); disturbances stay within ``most`` N m, (m,), either way."""
+        """Take in what some sensors are off, (3 m,); disturbances stay within ``most`` N m, (m,), either way."""
         self.estimate = self.estimate + self.gain_of(sensors) @ surprise[list(sensors)]
         _, disturbance = self._parts(self.estimate)
         np.clip(disturbance, -most, most, out=disturbance)
 
     def noise_of(self, sensors: tuple[int, ...]) -> Array:
         """Return the covariance of the noise of some sensors."""
-        places = [self.sensors.index(sensor) for sensor in sensors]
+        places = self._places(sensors)
         return self.noise[np.ix_(places, places)]
 
+    def _places(self, sensors: tuple[int, ...]) -> list[int]:
+        return [self.sensors.index(sensor) for sensor in sensors]
+
     def gain_of(self, sensors: tuple[int, ...]) -> Array:
-        """Return the gain of a filter that reads some of the sensors only, (s + m, those).
+        """Return the gain of a filter that reads some of the sensors only, (s + m + b, those).
 
         It is stationary where all encoders are among them. Where one shows nothing, not every disturbance can be told,
         so that there is no such gain: it is that of the first sample without it.
@@ -125,15 +137,16 @@ class KalmanFilter:
             self._gains[sensors] = self._without(sensors) if lost else self._stationary(sensors)[0]
         return self._gains[sensors]
 
-    def spread_of(self, sensors: tuple[int, ...]) -> Array:
-        """Return the covariance of what some sensors, all encoders among them, are off what is expected."""
-        measure = self.measure[[self.sensors.index(sensor) for sensor in sensors]]
-        return np.asarray(measure @ self._stationary(sensors)[1] @ measure.T + self.noise_of(sensors), float)
+    @property
+    def spread(self) -> Array:
+        """Covariance of what sensors are off what is expected, (p, p), where all were read before."""
+        return np.asarray(self.measure @ self.covariance @ self.measure.T + self.noise, float)
 
     def _without(self, sensors: tuple[int, ...]) -> Array:
-        """Return the gain for the first sample in which some encoders show nothing, (s + m, those that do)."""
+        """Return the gain for the first sample in which some encoders show nothing, (s + m + b, those that do)."""
         every = tuple(sorted({*range(self.model.count), *sensors}))
-        spread, places = self.spread_of(every), [every.index(sensor) for sensor in sensors]
+        read, places = self._places(every), [every.index(sensor) for sensor in sensors]
+        spread = self.spread[np.ix_(read, read)]
         inferred = np.linalg.solve(spread[np.ix_(places, places)], spread[places]).T
         return np.asarray(self.gain_of(every) @ inferred, float)
 
@@ -151,7 +164,8 @@ class KalmanFilter:
 
     def _parts(self, estimate: Array) -> tuple[Array, Array]:
         """Return state and disturbances of an estimate, as views of it."""
-        return estimate[: self.model.size], estimate[self.model.size :]
+        size = self.model.size
+        return estimate[:size], estimate[size : size + self.model.count]
 
     def _after(self, estimate: Array, torques: Pair) -> Array:
         before, then = (torque - self.model.goal.torque for torque in torques)
@@ -164,17 +178,18 @@ class KalmanFilter:
         return bool(np.all(np.isfinite(self.estimate)))
 
     def driven(self, drive: Array) -> Array:
-        """Return what the state's covariance grows by per sample, (s + m, s + m), for columns of the torques."""
+        """Return what the covariance of the estimate grows by per sample, for columns of the torques."""
         size, assumed = self.model.size, self._assumed
         found = (drive * assumed.torque**2) @ drive.T
         found += np.max(assumed.torque) ** 2 * _TINY * np.eye(len(drive))
         found[:size, :size] += (self.model.turn * assumed.rate**2) @ self.model.turn.T
-        found[size:, size:] += np.diag(assumed.disturbance**2)
+        biases = _DRIFT**2 * np.diag(self.noise)[len(self.noise) - len(self.biased) :]
+        found[size:, size:] += np.diag(np.concatenate([assumed.disturbance**2, biases]))
         return np.asarray(found, float)
 
     def _stationary(self, sensors: tuple[int, ...]) -> tuple[Array, Array]:
         """Iterate the Riccati equation until it stands; return gain and covariance before a measurement."""
-        measure = self.measure[[self.sensors.index(sensor) for sensor in sensors]]
+        measure = self.measure[self._places(sensors)]
         noise = self.noise_of(sensors)
         driven = self.driven(self.drive)
         covariance: Array = driven.copy()

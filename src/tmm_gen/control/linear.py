@@ -29,17 +29,20 @@ class LinearModel:
         ``B_0`` and ``B_1``.
     tip, tip_rate, hub, hub_rate : array, (m, s)
         Rows that give angles and their rates.
-    measure : array, (m + 2, s)
-        C: the hubs' angles; acceleration across the last link at the tip; bending moment at the root.
-    feed : array, (m + 2, m)
+    measure : array, (3 m, s)
+        C: the hubs' angles; accelerations across the last links at the tips; bending moments at the roots.
+    feed : array, (3 m, m)
         D.
-    target_sensors : array, (m + 2,)
+    target_sensors : array, (3 m,)
         What the sensors show at the target.
     goal : Goal
         Angles (rad) and torques (N m) at the target.
+    swept : array, (m, m, m)
+        What products of the hubs' rates add to the accelerometers: with elbows bent, one motor's turning is felt at
+        another's tip. Zero of an arm on a hub.
     whirl : array, (s,)
-        Row of what a rate of 1 rad/s throughout adds to the accelerometer: ``L (q_n - tip)``, since the tip, bent out
-        of the line of the last link, is pulled inward across it.
+        Of an arm on a hub, row of what a rate of 1 rad/s throughout adds to the accelerometer: ``L (q_n - tip)``,
+        since the tip, bent out of the line of the last link, is pulled inward across it.
     turn : array, (s, m)
         What is in the state of a hub that turns by 1 rad/s, and all behind it as well.
     turned : array, (s, m)
@@ -69,6 +72,7 @@ class LinearModel:
     feed: Array
     target_sensors: Array
     goal: Goal
+    swept: Array
     whirl: Array
     turn: Array
     turned: Array

@@ -38,9 +38,11 @@ def links_model(model: StepModel) -> LinearModel:
     motors, count = model.motors, model.motors.count
     transition, drives = model.jacobian(state, target.goal.torque)
     seen, slopes = (np.array(item) for item in model.sensor_slopes(state))
-    whirl = -model.rows(motors.tip, "angle")[-1]
-    whirl[model.places("angle")[-1]] += 1.0
-    whirl *= motors.lengths.sum()
+    whirl = np.zeros(model.size)
+    if motors.on_hub:
+        whirl -= model.rows(motors.tip, "angle")[0]
+        whirl[model.places("angle")[-1]] += 1.0
+        whirl *= motors.lengths.sum()
     return LinearModel(
         transition=transition,
         before=drives[:, :count],
@@ -50,9 +52,10 @@ def links_model(model: StepModel) -> LinearModel:
         hub=model.rows(motors.hub, "angle"),
         hub_rate=model.rows(motors.hub, "rate"),
         measure=slopes,
-        feed=np.zeros((count + 2, count)),  # torques reach what is measured through springs
+        feed=np.zeros((3 * count, count)),  # torques reach what is measured through springs
         target_sensors=seen.ravel(),
         goal=target.goal,
+        swept=np.zeros((1, 1, 1)) if motors.on_hub else model.sensing.swept(target.angles, motors.turned),
         whirl=whirl,
         turn=model.rows(motors.turned.T, "rate").T,
         turned=model.rows(motors.turned.T, "angle").T,

@@ -48,11 +48,11 @@ class Estimator(Protocol):
         ...
 
     def surprise(self, measured: Array) -> Array:
-        """Return how far a measurement is off what is expected, (m + 2,)."""
+        """Return how far a measurement is off what is expected, (3 m,)."""
         ...
 
     def correct(self, surprise: Array, sensors: tuple[int, ...], most: Array) -> None:
-        """Take in what some sensors are off, (m + 2,); disturbances stay within ``most`` N m, (m,), either way."""
+        """Take in what some sensors are off, (3 m,); disturbances stay within ``most`` N m, (m,), either way."""
 
     def advance(self, torques: Pair, end: Array) -> None:
         """Predict a sample with the torques that act in it, and those at its end, N m."""

@@ -11,6 +11,7 @@ from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.prediction import fine_scene
 from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.sensing import Sensing, sites_of
 from tmm_gen.control.target import find_start, find_target
 from tmm_gen.scene import Scene
 
@@ -57,15 +58,25 @@ def modes_model(scene: Scene, problem: ControlProblem) -> LinearModel:
 
     tip, hub = motors.tip @ shapes, motors.hub @ shapes
     still: Array = np.zeros((motors.count, count))
-    measure, feed = np.zeros((motors.count + 2, size)), np.zeros((motors.count + 2, motors.count))
-    seen = np.zeros(motors.count + 2)
-    measure[:-2, :count], seen[:-2] = hub, target.goal.hub
+    measure, feed = np.zeros((3 * motors.count, size)), np.zeros((3 * motors.count, motors.count))
+    seen, behind = np.zeros(3 * motors.count), slice(motors.count, None)
+    measure[: motors.count, :count], seen[: motors.count] = hub, target.goal.hub
+    swept, whirl = np.zeros((motors.count,) * 3), np.zeros(size)
+    length = float(motors.lengths.sum())
     if motors.on_hub:
-        measure[-2:], feed[-2:], seen[-2:] = _sensors(fine, target.angles, shapes, system[count:size])
+        measure[behind], feed[behind], seen[behind] = _sensors(
+            fine, target.angles, shapes, system[count:size]
+        )
+        whirl[:count] = length * (shapes[-1] - tip[0])
+    else:
+        sensing = Sensing.of(fine, motors, problem, sites_of(scene, motors_of(scene), problem))
+        measure[behind], feed[behind], seen[behind] = _sensors_by_parts(
+            sensing, target.angles, shapes, system[count:size]
+        )
+        swept = sensing.swept(target.angles, motors.turned)
     coordinates = shapes.T @ mass
     turned = (coordinates @ motors.turned).T
     start = coordinates @ (initial.angles - target.angles)
-    length = float(motors.lengths.sum())
     return LinearModel(
         transition=sampled[:size, :size],
         before=sampled[:size, size:] - then,
@@ -78,7 +89,8 @@ def modes_model(scene: Scene, problem: ControlProblem) -> LinearModel:
         feed=feed,
         target_sensors=seen,
         goal=target.goal,
-        whirl=np.concatenate([length * (shapes[-1] - tip[-1]), still[-1]]),
+        swept=swept,
+        whirl=whirl,
         turn=np.hstack([still, turned]).T,
         turned=np.hstack([turned, still]).T,
         start_hub=hub @ start + target.goal.hub,
@@ -108,3 +120,14 @@ def _sensors(scene: Scene, angles: Array, shapes: Array, accelerations: Array) -
     feed[0] = across @ accelerations[:, -1:]
     seen = np.array([gravity * np.cos(angles[-1]), joint.stiffness * (angles[1] - angles[0])], dtype=float)
     return measure, feed, seen
+
+
+def _sensors_by_parts(
+    sensing: Sensing, angles: Array, shapes: Array, accelerations: Array
+) -> tuple[Array, Array, Array]:
+    """Return C, (2 m, 2 r), D, (2 m, m), and what accelerometers and gauges of an arm by parts show at the target."""
+    count, still = shapes.shape[1], np.zeros(len(angles))
+    seen, by_angle, by_rate, by_growth = (np.array(each) for each in sensing.function(angles, still, still))
+    felt = by_growth @ shapes @ accelerations
+    measure = np.hstack([by_angle @ shapes, by_rate @ shapes]) + felt[:, : 2 * count]
+    return measure, felt[:, 2 * count :], seen.ravel()

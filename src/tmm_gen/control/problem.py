@@ -82,7 +82,7 @@ from tmm_gen.errors import UserError
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene
 from tmm_gen.scene.control import Control, Sensors
-from tmm_gen.scene.each import by_names
+from tmm_gen.scene.each import by_names, some_by_names
 from tmm_gen.scene.trajectory import Keep
 
 Array = NDArray[np.float64]
@@ -162,6 +162,16 @@ class ControlProblem:
     def encoders(self) -> Array:
         """Counts per revolution of each hub's encoder, (m,)."""
         return np.array(by_names(self.sensors.encoder, self.motors.names), float)
+
+    @property
+    def accelerometers(self) -> Array:
+        """Standard deviation of the noise of the accelerometer at each motor's tip, (m,), m/s^2; NaN where none is."""
+        return np.array(some_by_names(self.sensors.accelerometer, self.motors.names))
+
+    @property
+    def gauges(self) -> Array:
+        """The same of strain gauges on the beams that motors carry, (m,), N m."""
+        return np.array(some_by_names(self.sensors.strain, self.motors.names))
 
     def kinds(self, goal: Goal) -> tuple[Kind, ...]:
         """Return the rows of the quadratic program, N for each kind, in their order.
@@ -261,8 +271,8 @@ def control_problem(scene: Scene) -> ControlProblem:
             torque=np.array(by_names(assumed.torque, names)),
             disturbance=np.array(by_names(assumed.disturbance, names)),
             rate=np.array(by_names(assumed.rate, names)),
-            accelerometer=assumed.accelerometer,
-            strain=assumed.strain,
+            accelerometer=np.array(by_names(assumed.accelerometer, names)),
+            strain=np.array(by_names(assumed.strain, names)),
         ),
         keeps=control.keep,
     )

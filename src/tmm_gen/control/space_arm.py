@@ -73,7 +73,7 @@ class SpaceArm:
 
     def holding(self) -> Holding:
         """Return what holds it up: what its motors would, were it rigid."""
-        return _RigidHolding(self)
+        return RigidHolding(self)
 
     def rigid_torques(self, hub: Array, rate: Array, acceleration: Array) -> Array:
         """Return the torques of motors for a motion in which nothing bends."""
@@ -95,7 +95,7 @@ class SpaceArm:
 
 
 @dataclass(frozen=True, eq=False)
-class _RigidHolding:
+class RigidHolding:
     """What holds up an arm that does not bend.
 
     Parameters

@@ -24,12 +24,28 @@ from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.still import Still
 from tmm_gen.scene.each import by_names
 from tmm_gen.scene.scene import Scene
-from tmm_gen.scene.spatial.arm import SpatialArm
+from tmm_gen.scene.spatial.arm import Frame, SpatialArm
 
 Array = NDArray[np.float64]
 
 _NEAR = 0.05
 """A tip nearer to its motor's axis than that, relative to the way along the arm, has no angle about it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tip:
+    """A motor's tip that goes round its axis.
+
+    Parameters
+    ----------
+    frame : Frame
+        Where it is.
+    across : array, (3,)
+        Which way it goes as the motor turns, at the reference, in the axes of the body it is on; of length 1.
+    """
+
+    frame: Frame
+    across: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,9 +56,12 @@ class SpaceMotors(Motors):
     ----------
     rows : array, (m, d)
         That give the tips' angles.
+    ends : tuple of Tip or None, length m
+        The tips; None where one is near its motor's axis.
     """
 
     rows: Array
+    ends: tuple[Tip | None, ...]
 
     @cached_property
     def tip(self) -> Array:
@@ -86,8 +105,10 @@ def space_motors(scene: Scene, reference: Array | None = None) -> SpaceMotors:
     posture[places] = 0.0 if reference is None else reference
     numbers = ArmNumbers(arm)
     still, ways, rows = Still(numbers, posture, {}), _ways(arm), np.zeros((len(each), numbers.size))
+    ends: list[Tip | None] = []
     for row, place in zip(rows, places, strict=True):
         row[place] = 1.0
+        ends.append(None)
         carried = [frame for frame in arm.frames if frame.joint and numbers.ways[frame.joint - 1, place]]
         # of frames as far away the last is on what is outermost
         tip = max(reversed(carried), key=lambda frame: ways[frame.joint] + _length(frame.at), default=None)
@@ -99,7 +120,9 @@ def space_motors(scene: Scene, reference: Array | None = None) -> SpaceMotors:
             given_way = (own @ moved) / (own @ own)
             given_way[[*places, *range(place)]] = 0.0
             row += given_way
-    return SpaceMotors(each, np.array([_length(joint.at) for joint in arm.joints]), on_hub=False, rows=rows)
+            ends[-1] = Tip(tip, still.facing[tip.joint - 1] @ own / np.linalg.norm(own))
+    lengths = np.array([_length(joint.at) for joint in arm.joints])
+    return SpaceMotors(each, lengths, on_hub=False, rows=rows, ends=tuple(ends))
 
 
 def outer_bodies(scene: Scene) -> tuple[str, ...]:

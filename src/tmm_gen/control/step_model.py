@@ -17,6 +17,8 @@ from tmm_gen.control.motor_rows import Motors
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.payload import changed_parameters, laden, payload_of
 from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.sensing import Sensing, sites_of
+from tmm_gen.control.sensors import sensors_of
 from tmm_gen.control.step_slopes import step_slopes
 from tmm_gen.control.target import Start, find_start
 from tmm_gen.scene import Scene
@@ -180,27 +182,15 @@ class StepModel:
         return np.array([[float(name == each) for each in wanted] for name in self.module.INPUT_NAMES])
 
     @cached_property
+    def sensing(self) -> Sensing:
+        """Accelerometers and gauges of an arm by parts."""
+        sites = sites_of(self.scene, self.motors, self.problem)
+        return Sensing.of(self.scene, self.motors, self.problem, sites)
+
+    @cached_property
     def sensors(self) -> Any:
-        """``h(x)``, a CasADi function: the hubs' angles, acceleration across the last link at the tip, root moment.
-
-        The accelerometer measures what gravity does to a proof mass too: at rest, ``g cos(q_n)``. Arms by parts have
-        encoders alone.
-        """
-        import casadi as ca
-
-        x, count = ca.SX.sym("x", self.size), self.motors.count
-        hubs = ca.mtimes(ca.sparsify(ca.DM(self.rows(self.motors.hub, "angle"))), x)
-        if not self.motors.on_hub:
-            return ca.Function("sensors", [x], [ca.vertcat(hubs, 0.0, 0.0)], ["x"], ["hubs_and_others"])
-        y = self.module.step_function()(x, self.inputs(ca.DM.zeros(count)), self.parameters)[1]
-        names = self.module.OUTPUT_NAMES
-        across, up, root = (
-            y[names.index(name)] for name in ("tip_acceleration_x", "tip_acceleration_y", "root")
-        )
-        angle = x[self.places("angle")[-1]]
-        gravity = self.scene.model.gravity or 0.0
-        felt = -across * ca.sin(angle) + (up + gravity) * ca.cos(angle)
-        return ca.Function("sensors", [x], [ca.vertcat(hubs, felt, root)], ["x"], ["hubs_and_others"])
+        """``h(x)``, a CasADi function, see :func:`~tmm_gen.control.sensors.sensors_of`."""
+        return sensors_of(self)
 
     @cached_property
     def sample_slopes(self) -> Any:

@@ -42,18 +42,16 @@ class Assumed:
 
     Parameters
     ----------
-    encoder, torque, disturbance, rate : array, (m,)
-        Of each motor: rad, N m, N m, rad/s.
-    accelerometer, strain : float
-        m/s^2, N m.
+    encoder, torque, disturbance, rate, accelerometer, strain : array, (m,)
+        Of each motor: rad, N m, N m, rad/s, m/s^2, N m.
     """
 
     encoder: Array
     torque: Array
     disturbance: Array
     rate: Array
-    accelerometer: float
-    strain: float
+    accelerometer: Array
+    strain: Array
 
 
 @dataclass(frozen=True, eq=False)

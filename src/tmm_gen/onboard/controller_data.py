@@ -21,7 +21,7 @@ class ControllerData(Protocol):
 
     @property
     def sensors(self) -> tuple[int, ...]:
-        """Which sensors there are: m encoders, then accelerometer and strain gauge."""
+        """Which sensors there are: of m encoders, m accelerometers and m strain gauges."""
         ...
 
     @property

@@ -6,8 +6,10 @@ import numpy as np
 
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condensed import Condensed
+from tmm_gen.control.kalman import present_sensors
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.walls import keeps_no_walls
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.example_arm import example_arm
 from tmm_gen.onboard.linear import emit_linear_mpc
@@ -17,6 +19,9 @@ EMITTED = ("mpc-links", "mpc-modes", "rti-zero", "rti")
 """Names of the controllers that can be written in C."""
 LINEAR = ("mpc-links", "mpc-modes")
 """Those of them that are linear."""
+
+MOST_BEHIND = 6
+"""Sensors behind the encoders that an emitted controller may read: its filter has a gain for each set of them."""
 
 _MOST_LOST = 10.0
 """Rounding of the largest curvature of the cost over the least one. Single precision does with 3, not with 100."""
@@ -59,18 +64,15 @@ def emit_controller(
         raise UserError(
             f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}"
         )
-    if controller in LINEAR and not bench.problem.motors.on_hub:
-        others = ", ".join(each for each in EMITTED if each not in LINEAR)
-        raise UserError(
-            f"the controller '{controller}' is written in C for arms on a hub only; for motors by name "
-            f"take one of: {others}"
-        )
+    if bench.problem.keeps and controller in LINEAR:
+        raise keeps_no_walls(bench.scene, controller, ", ".join(each for each in EMITTED if each not in LINEAR))
     name = name or f"{bench.scene.name}_{controller.replace('-', '_')}"
     taken = {"daqp": "the solver's files", bench.scene.name: "the arm's own functions"}
     if name in taken and (name == "daqp" or controller not in LINEAR):
         raise UserError(
             f"--name {name}: is the prefix of {taken[name]}. Take another, such as {name}_control."
         )
+    _require_few(bench)
     arm = example_arm(bench)
     title = bench.scene.title
     if controller in ("rti", "rti-zero"):
@@ -81,6 +83,18 @@ def emit_controller(
     linear = LinearMpc(model, bench.problem, bench.inertia)
     _require_digits(bench, linear.condensed, real)
     return name, emit_linear_mpc(name, title, linear, arm, real)
+
+
+def _require_few(bench: Bench) -> None:
+    """Refuse more sensors than there can be a gain for each set of."""
+    names, problem = bench.problem.motors.names, bench.problem
+    behind = len(present_sensors(problem)) - problem.count
+    if behind > MOST_BEHIND:
+        raise UserError(
+            f"{bench.scene.source.origin}: control.sensors: {behind} accelerometers and gauges: a controller in C "
+            f"reads at most {MOST_BEHIND}, as its filter has a gain for each set of them. Name fewer motors, such as "
+            f"`accelerometer = {{ {names[-1]} = 0.1 }}`."
+        )
 
 
 def _require_digits(bench: Bench, condensed: Condensed, real: str) -> None:

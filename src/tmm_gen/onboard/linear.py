@@ -8,8 +8,8 @@ from tmm_gen.emit.templates import render
 from tmm_gen.onboard.example_arm import ExampleArm
 from tmm_gen.onboard.folder import complete
 from tmm_gen.onboard.linear_data import linear_mpc_data
+from tmm_gen.onboard.linear_text import LinearText
 from tmm_gen.onboard.solver import solver_files
-from tmm_gen.onboard.text import ControllerText
 
 
 def emit_linear_mpc(
@@ -36,7 +36,7 @@ def emit_linear_mpc(
         Texts by path: ``<name>.h``, ``<name>.c``, the solver's in ``daqp/``, an example and how to build all.
     """
     data = linear_mpc_data(controller)
-    mpc = ControllerText(name, title, controller.problem, "linear MPC, condensed", REALS[real], data)
+    mpc = LinearText(name, title, controller.problem, "linear MPC, condensed", REALS[real], data)
     context = {"mpc": mpc, "name": name, "NAME": mpc.NAME}
     files = {
         f"{name}.h": render("control/linear_mpc.h.jinja", **context),

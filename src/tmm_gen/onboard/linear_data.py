@@ -7,25 +7,23 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.command import Status
 from tmm_gen.control.credible import Credible
+from tmm_gen.control.holding import LevelHolding
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.safe import BRAKE_TIME
+from tmm_gen.control.space_arm import RigidHolding
+from tmm_gen.control.terms import Kind
+from tmm_gen.onboard.linear_maps import affine_maps, first_active, folded
 from tmm_gen.onboard.program_data import ProgramData, program_data
+from tmm_gen.onboard.weight import Weight, weight_of
 
 Array = NDArray[np.float64]
-
-_ACTIVE = 1e-9
-"""How near a bound an input or a row is that is held by it."""
-
-_ROUNDING = 1e-13
-"""What is left of a column that others make up, relative to the largest."""
 
 
 @dataclass(frozen=True, eq=False)
 class LinearMpcData:
-    """Tables of a linear MPC of one motor; ``z = (w, d - u_s, u[-1], 1)`` has ``r + 3`` entries.
+    """Tables of a linear MPC of m motors; ``z = (w, d - u_s, u[-1], 1)`` has ``r + 2 m + 1`` entries.
 
     ``w`` is what of the state x makes a difference to what comes, r numbers of it: a step that integrates
     accelerations goes on from angles and rates that these have been added to already.
@@ -33,53 +31,66 @@ class LinearMpcData:
     Parameters
     ----------
     size : int
-        Entries of the model's state, m.
-    kept, others : tuple of int, (r,) and (m - r,)
+        Entries of the model's state, s.
+    biases : int
+        b, of how many sensors what they are off for long is estimated.
+    kept, others : tuple of int, (r,) and (s - r,)
         Entries of x.
-    fold : array, (r, m - r)
+    fold : array, (r, s - r)
         ``w = x[kept] + fold x[others]``.
-    transition, before, then : array, (m, r + 1), (m,) and (m,)
-        Of the state over a sample, by w and disturbance, and by the torques that act in it.
-    measure, feed : array, (p, m + 1) and (p,)
+    transition, before, then : array, (s, r + m), (s, m) and (s, m)
+        Of the state over a sample, by w and disturbances, and by the torques that act in it.
+    measure, feed : array, (p, s + m) and (p, m)
         Of the Kalman filter.
-    gains : array, (2^(p - 1), m + 1, p)
-        Of the same, by which sensors behind the encoder are there; see :func:`gains_by_sensors`.
+    gains : array, (2^(p - m), s + m + b, p)
+        Of the same, by which sensors behind the encoders are there; see :func:`gains_by_sensors`.
+    spread : array, (p, p)
+        Covariance of what sensors are off.
     credible : Credible
         What can be believed of a measurement.
-    turned, turning : array, (m,)
-        What the state is of an arm turned by 1 rad, and of one turning at 1 rad/s.
-    target_hub : float
+    turned, turning : array, (s, m)
+        What the state is of an arm of which a hub is turned by 1 rad, and of one of which it turns at 1 rad/s.
+    hub, hub_rate : array, (m, s)
+        Rows that give the hubs' angles and rates.
+    target_hub : array, (m,)
         rad.
-    start : array, (m + 1,)
+    start : array, (s + m,)
         Estimate at time zero.
-    start_torque : array, (1,)
-        Torque before any is chosen, N m.
-    tip_rate, whirl : array, (m,)
-        The accelerometer feels the tip's rate squared times ``whirl x`` besides what is linear.
+    start_torque, target_torque : array, (m,)
+        Torques before any is chosen, and at the target, N m.
+    tip_rate, whirl : array, (s,)
+        The accelerometer of an arm on a hub feels the tip's rate squared times ``whirl x`` besides what is linear.
+    swept : array, (m, m, m)
+        Others feel products of the hubs' rates.
     sensors : tuple of int
-        Which of encoder, accelerometer and strain gauge there are.
+        Which there are of m encoders, m accelerometers and m strain gauges.
     shown : array, (p,)
         What they show at the target.
-    target_torque : float
-        N m.
     whole, acting, memory : int
         Delay in samples, of the model and of the arm; past torques that count.
     program : ProgramData
         The quadratic program, but for what follows.
-    shift : array, (N, r + 3)
+    shift : array, (m N, r + 2 m + 1)
         ``v = R^-T f`` by ``z``.
-    free : array, (rows, r + 2)
+    free : array, (rows, r + 2 m)
         What the rows are at without inputs, by ``z`` but for its last entry, less what they are at the target.
+    kinds : tuple of Kind
+        What the rows of the program bound.
     rest : array, (kinds of rows,)
         What the rows are at at the target.
-    brake : float
+    brake : array, (m,)
         Of the safe law, N m s/rad.
+    holds : array, (m, m)
+        What holds up an arm in a plane, N m; see :func:`tmm_gen.control.holding.holding`.
+    weight : Weight or None
+        What holds up an arm in space.
     first : tuple of int
         Bounds that are active at the start, counted from 1, lower ones negative, a sample later than they are: where
         a solver that lets them move on by a sample begins. So the first sample is none of the longest.
     """
 
     size: int
+    biases: int
     kept: tuple[int, ...]
     others: tuple[int, ...]
     fold: Array
@@ -89,25 +100,32 @@ class LinearMpcData:
     measure: Array
     feed: Array
     gains: Array
+    spread: Array
     credible: Credible
     turned: Array
     turning: Array
-    target_hub: float
+    hub: Array
+    hub_rate: Array
+    target_hub: Array
     start: Array
     start_torque: Array
+    target_torque: Array
     tip_rate: Array
     whirl: Array
+    swept: Array
     sensors: tuple[int, ...]
     shown: Array
-    target_torque: float
     whole: int
     acting: int
     memory: int
     program: ProgramData
     shift: Array
     free: Array
+    kinds: tuple[Kind, ...]
     rest: Array
-    brake: float
+    brake: Array
+    holds: Array
+    weight: Weight | None
     first: tuple[int, ...]
 
 
@@ -116,63 +134,57 @@ def linear_mpc_data(controller: LinearMpc) -> LinearMpcData:
     model, kalman, problem = controller.model, controller.estimator, controller.problem
     assert isinstance(kalman, KalmanFilter)
     program = program_data(problem, controller.condensed)
-    size = model.size
-    gradient, free = _affine_maps(controller)
+    size, count = model.size, model.count
+    gradient, free = affine_maps(controller)
     kinds = len(free) // problem.horizon
     shift = program.inverse.T @ gradient
-    kept, others, fold = _folded(np.vstack([model.transition, shift[:, :size], free[:, :size]]))
-    known = [*kept, *range(size, size + 3)]
+    kept, others, fold = folded(np.vstack([model.transition, shift[:, :size], free[:, :size]]))
+    known = [*kept, *range(size, size + 2 * count + 1)]
+    holds = model.holds
     return LinearMpcData(
         size=size,
+        biases=len(kalman.biased),
         kept=kept,
         others=others,
         fold=fold,
-        transition=kalman.transition[:size, known[:-2]],
-        before=model.before[:, 0],
-        then=model.then[:, 0],
-        measure=kalman.measure,
-        feed=kalman.feed[:, 0],
+        transition=kalman.transition[:size, known[: -count - 1]],
+        before=model.before,
+        then=model.then,
+        measure=kalman.measure[:, : size + count],
+        feed=kalman.feed,
         gains=gains_by_sensors(kalman),
+        spread=kalman.spread,
         credible=controller.limits,
-        turned=model.turned[:, 0],
-        turning=model.turn[:, 0],
-        target_hub=float(model.goal.hub[0]),
-        start=np.append(model.start, 0.0),
+        turned=model.turned,
+        turning=model.turn,
+        hub=model.hub,
+        hub_rate=model.hub_rate,
+        target_hub=model.goal.hub,
+        start=np.append(model.start, np.zeros(count)),
         start_torque=model.start_torque,
+        target_torque=model.goal.torque,
         tip_rate=model.tip_rate[0],
         whirl=model.whirl,
+        swept=model.swept,
         sensors=tuple(kalman.sensors),
         shown=model.target_sensors[kalman.sensors],
-        target_torque=float(model.goal.torque[0]),
         whole=controller.delay.whole,
         acting=controller.delay.acting,
         memory=controller.delay.memory,
         program=program,
         shift=shift[:, known],
         free=free[:, known[:-1]],
+        kinds=controller.condensed.kinds,
         rest=free[:: problem.horizon, -1] if kinds else np.zeros(0),
-        brake=float(controller.inertia[0]) / BRAKE_TIME,
-        first=_first_active(controller, program, free),
+        brake=controller.inertia / BRAKE_TIME,
+        holds=holds.rows if isinstance(holds, LevelHolding) else np.zeros((count, count)),
+        weight=weight_of(holds.arm, holds.arm, count) if isinstance(holds, RigidHolding) else None,
+        first=first_active(controller, program, free),
     )
 
 
-def _folded(columns: Array) -> tuple[tuple[int, ...], tuple[int, ...], Array]:
-    """Return which columns to keep, the others, and how the others are put together from those kept.
-
-    A column counts as put together only if that is exact but for rounding, so that either answer is right.
-    """
-    from scipy.linalg import qr  # slow to import
-
-    triangle, order = qr(columns, mode="r", pivoting=True)
-    sizes = np.abs(np.diag(triangle[: len(order)]))
-    rank = int(np.sum(sizes > _ROUNDING * sizes[0]))
-    kept, others = tuple(sorted(int(i) for i in order[:rank])), tuple(sorted(int(i) for i in order[rank:]))
-    fold = np.linalg.lstsq(columns[:, kept], columns[:, others], rcond=None)[0]
-    return kept, others, np.where(np.abs(fold) > _ROUNDING, fold, 0.0)
-
-
 def gains_by_sensors(kalman: KalmanFilter) -> Array:
-    """Return the gains of a filter for each set of its sensors with all m encoders in it, (2^(p - m), s + m, p).
+    """Return the gains of a filter for each set of its sensors with all m encoders in it, (2^(p - m), s + m + b, p).
 
     Bit ``i`` of a set's number is the sensor ``m + i``; columns of sensors that are not in it are zero.
     """
@@ -183,57 +195,3 @@ def gains_by_sensors(kalman: KalmanFilter) -> Array:
         places = [*range(encoders), *more]
         gain[:, places] = kalman.gain_of(tuple(sensors[i] for i in places))
     return found
-
-
-def _first_active(controller: LinearMpc, program: ProgramData, free: Array) -> tuple[int, ...]:
-    """Return what is active at the scene's start, a sample later; see :class:`LinearMpcData`."""
-    count, delay = program.horizon, controller.delay
-    controller.reset()
-    past = np.zeros((delay.memory + 1, 1))
-    state, disturbance = controller.estimator.ahead(delay.known(past))
-    solution = controller.planned(state, disturbance, past[-1])
-    controller.reset()
-    if solution.status is not Status.OK:
-        return ()
-    inputs = solution.point[:count]
-    known = np.array([*state, *(disturbance - controller.model.goal.torque), 0.0, 1.0])
-    values = np.concatenate([inputs, program.rows @ inputs + free @ known])
-    found = []
-    for at in np.flatnonzero((values > program.high - _ACTIVE) | (values < program.low + _ACTIVE)):
-        place = at if at % count == count - 1 else at + 1
-        found.append(int(place + 1 if values[at] > program.low[at] + _ACTIVE else -place - 1))
-    return tuple(dict.fromkeys(found))
-
-
-def _affine_maps(controller: LinearMpc) -> tuple[Array, Array]:
-    """Return gradient of the inputs, and free motion of the rows, as maps of ``z``: both are affine in it."""
-    problem, found, target = controller.problem, controller.response, controller.model
-    size = target.size
-    none = np.zeros((1, problem.horizon))
-
-    def at(z: Array) -> tuple[Array, Array]:
-        state, pushed, last, one = z[:size], z[size : size + 1], z[size + 1 : size + 2], z[size + 2]
-        disturbance = pushed + target.goal.torque * one
-        motion = (
-            found.by_state @ state
-            + found.by_constant @ pushed
-            + found.by_last @ last
-            + controller.offsets * one
-        )
-        along = found.outputs(motion)
-        gradient = controller.condensed.gradient(along, none, last, disturbance)[: problem.horizon]
-        rows = [
-            np.append(-last, none[0, 1:]) if kind.what == "rate" else getattr(along, kind.what)[kind.motor]
-            for kind in controller.condensed.kinds
-        ]
-        return gradient, np.concatenate(rows) if rows else np.zeros(0)
-
-    units = np.eye(size + 3)
-    constant = at(units[-1])
-    columns = [at(unit + units[-1]) for unit in units[:-1]]
-    # the gradient's own constant belongs to the last entry of z, which is always one
-    maps = []
-    for which in range(2):
-        parts = [column[which] - constant[which] for column in columns]
-        maps.append(np.column_stack([*parts, constant[which]]))
-    return maps[0], maps[1]

@@ -65,7 +65,7 @@ class EmittedController:
     files : mapping of str to str
         As emitted.
     sensors : sequence of int
-        Which it reads: m encoders, accelerometer and strain gauge.
+        Which it reads of m encoders, m accelerometers and m strain gauges.
     real : {"float64", "float32"}
         Its number type.
     cc, flags
@@ -136,7 +136,7 @@ class EmittedController:
         return Command(found.torques[0], found.statuses[0], int(found.iterations[0]))
 
     def run(self, measured: Array, valid: Flags | None = None, prepare: bool = True) -> Series:
-        """Hand in a series of measurements, (samples, m + 2), and keep what comes out of each.
+        """Hand in a series of measurements, (samples, 3 m), and keep what comes out of each.
 
         Time includes nothing but the controller's own. Which are valid is said in the same shape, or all are. Samples
         are prepared before their measurements, or left to themselves.

@@ -13,6 +13,7 @@ from tmm_gen.onboard.example_arm import ExampleArm
 from tmm_gen.onboard.folder import complete
 from tmm_gen.onboard.rti_data import rti_data
 from tmm_gen.onboard.rti_text import RtiText
+from tmm_gen.onboard.sensing_text import SensingText
 from tmm_gen.onboard.short_names import short_names
 from tmm_gen.onboard.solver import solver_files
 from tmm_gen.program.build import build_program
@@ -69,7 +70,10 @@ def emit_rti(
         inputs_of_kernel=tuple(item.name for item in scene.inputs),
         bare_names=bare_names(program),
     )
-    context = {"mpc": mpc, "name": name, "NAME": mpc.NAME}
+    sensing = None
+    if mpc.several:
+        sensing = SensingText(controller.model.sensing, mpc.data.sensors)
+    context = {"mpc": mpc, "name": name, "NAME": mpc.NAME, "sensing": sensing}
     kernel = {path.removeprefix("c/"): text for path, text in emit_kernel(program, scene).items()}
     unused = (
         () if mpc.needs_tangents else (f"{kernel_name}_sensitivities.h", f"{kernel_name}_sensitivities.c")

@@ -37,16 +37,18 @@ class RtiData:
     ----------
     size : int
         Entries of the kernel's state, s.
+    biases : int
+        b, of how many sensors what they are off for long is estimated.
     motors : Motors
         What turns the arm, m of them.
     outputs : tuple of (str, int)
         Those of `OUTPUTS` that are weighed or bounded, of a motor each; then ``keep``, of each wall.
     weights, targets : tuple of float
         Of each output.
-    gains : array, (2^(p - m), s + m, p)
+    gains : array, (2^(p - m), s + m + b, p)
         Of the filter; see :func:`~tmm_gen.onboard.linear_data.gains_by_sensors`.
-    spread : array, (m, m)
-        Covariance of what encoders are off, rad^2.
+    spread : array, (p, p)
+        Covariance of what sensors are off.
     ahead_by, moved_by, now_by : array, (2^(p - m) p, m N), (2^(p - m) p, m N + r) and (2^(p - m) p, r)
         What each sensor's being off makes, at the target, of ``v = R^-T f``, of the bounds by that and of the rows.
     start : array, (s + m,)
@@ -62,7 +64,7 @@ class RtiData:
     shares : array, (M,)
         Of the earlier torque in the steps of a sample.
     sensors : tuple of int
-        Which there are: m encoders, then accelerometer and strain gauge.
+        Which there are of m encoders, m accelerometers and m strain gauges.
     holds : array, (m, m)
         What holds up an arm in a plane, N m; see :func:`tmm_gen.control.holding.holding`.
     holds_more : array, (m, m)
@@ -100,6 +102,7 @@ class RtiData:
     """
 
     size: int
+    biases: int
     motors: Motors
     outputs: tuple[tuple[str, int], ...]
     weights: tuple[float, ...]
@@ -168,12 +171,13 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         lengths[motor.place : motor.end] /= lengths[motor.place : motor.end].sum()
     return RtiData(
         size=model.size,
+        biases=len(kalman.biased),
         motors=motors,
         outputs=outputs,
         weights=tuple(float(weights[name][motor]) for name, motor in outputs),
         targets=tuple(float(targets[name][motor]) for name, motor in outputs),
         gains=gains,
-        spread=kalman.spread_of(tuple(kalman.sensors))[: problem.count, : problem.count],
+        spread=kalman.spread,
         ahead_by=ahead_by,
         moved_by=ahead_by @ scaled.T,
         now_by=now_by,
@@ -225,5 +229,6 @@ def _by_sensors(controller: RealTimeIteration, gains: Array, program: ProgramDat
         return program.inverse.T @ gradient, np.concatenate(rows) if rows else np.zeros(0)
 
     shift, _ = program_of(np.zeros(size + problem.count))  # the target's own
-    found = [program_of(column) for gain in gains for column in gain.T]
+    # what sensors are off that stays makes no difference to what comes
+    found = [program_of(column) for gain in gains for column in gain[: size + problem.count].T]
     return np.array([each[0] - shift for each in found]), np.array([each[1] for each in found])

@@ -16,14 +16,10 @@ from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.onboard.controller_data import ControllerData
 from tmm_gen.onboard.program_data import INFINITE
+from tmm_gen.onboard.sensor_words import sensor_words
 from tmm_gen.onboard.tables import number, table
 from tmm_gen.onboard.tolerances import TOLERANCES, Tolerances
 from tmm_gen.version import __version__
-
-_MORE_SENSORS = (
-    ("tip accelerometer", "acceleration across the last link at the tip [m/s^2]"),
-    ("root strain gauge", "bending moment at the root [N m]"),
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,20 +170,12 @@ class ControllerText:
     @property
     def sensor_names(self) -> str:
         """Which sensors there are, in words."""
-        return ", ".join(self._sensor(i)[0] for i in self.data.sensors)
+        return ", ".join(sensor_words(self.problem.motors, i)[0] for i in self.data.sensors)
 
     @property
     def sensor_units(self) -> str:
         """What they measure, in words."""
-        return ", ".join(self._sensor(i)[1] for i in self.data.sensors)
-
-    def _sensor(self, number: int) -> tuple[str, str]:
-        """Return name and unit of a sensor."""
-        names = self.problem.motors.names
-        if number >= len(names):
-            return _MORE_SENSORS[number - len(names)]
-        name = "hub" if self.problem.motors.on_hub else f"'{names[number]}'"
-        return f"{name} encoder", f"{name} angle [rad]"
+        return ", ".join(sensor_words(self.problem.motors, i)[1] for i in self.data.sensors)
 
     @property
     def _torques(self) -> str:

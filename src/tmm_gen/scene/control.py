@@ -113,17 +113,17 @@ class Sensors(Table):
         Counts of the hub's encoder per revolution.
     accelerometer : float, optional
         Standard deviation of the noise of an accelerometer at the tip, across the last link, m/s^2; no such
-        sensor if absent.
+        sensor if absent. Of several motors one at each one's tip, or at those that are named.
     strain : float, optional
         Standard deviation of the noise of a strain gauge at the root, as a bending moment, N m; no such sensor
-        if absent.
+        if absent. Of several motors one on the beam that each carries, or on those of the motors that are named.
     """
 
     encoder: EachCount = Field(default=8192, description="counts per revolution", examples=["8192"])
-    accelerometer: NonNegative | None = Field(
+    accelerometer: EachNonNegative | None = Field(
         default=None, description="noise of the tip accelerometer in m/s^2", examples=["0.05"]
     )
-    strain: NonNegative | None = Field(
+    strain: EachNonNegative | None = Field(
         default=None, description="noise of the root strain gauge in N m", examples=["0.01"]
     )
 
@@ -151,10 +151,12 @@ class Estimator(Table):
     """
 
     encoder: EachPositive = Field(default=1e-3, description="error of the encoder in rad", examples=["1e-3"])
-    accelerometer: Positive = Field(
+    accelerometer: EachPositive = Field(
         default=1.0, description="error of the accelerometer in m/s^2", examples=["1.0"]
     )
-    strain: Positive = Field(default=0.1, description="error of the strain gauge in N m", examples=["0.1"])
+    strain: EachPositive = Field(
+        default=0.1, description="error of the strain gauge in N m", examples=["0.1"]
+    )
     torque: EachPositive = Field(default=1e-2, description="unknown torque in N m", examples=["0.01"])
     disturbance: EachPositive = Field(
         default=1e-2, description="change of the disturbance per sample in N m", examples=["0.01"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -44,3 +45,10 @@ class OneOrEach:
 def by_names(value: Each[Value], names: Sequence[str]) -> tuple[Value, ...]:
     """Return a value for each name, in their order; every name must be told."""
     return tuple(value[name] if isinstance(value, dict) else value for name in names)
+
+
+def some_by_names(value: Each[float] | None, names: Sequence[str]) -> tuple[float, ...]:
+    """Return a number for each name, in their order; NaN for those that none is told of."""
+    if not isinstance(value, dict):
+        return (math.nan if value is None else value,) * len(names)
+    return tuple(value.get(name, math.nan) for name in names)

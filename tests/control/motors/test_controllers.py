@@ -93,7 +93,7 @@ def test_torques_nobody_commanded_are_found_motor_by_motor(two: Bench, kind: typ
     unknown = np.array([0.015, -0.006])
     state, acting = step.initial(), two.links.start_torque
     for _ in range(250):
-        seen = np.append(step.motors.hub @ state[step.places("angle")], [np.nan, np.nan])
+        seen = np.append(step.motors.hub @ state[step.places("angle")], 4 * [np.nan])
         filtered.correct(filtered.surprise(seen), (0, 1), np.ones(2))
         # held where it began, or it would fall
         acting = two.links.start_torque - unknown - 0.05 * (seen[:2] - two.links.start_hub)
@@ -114,7 +114,7 @@ def test_sensitivities_of_zero_order_are_those_of_what_is_carried_and_where(two:
     assert told.carry(0.05) is Status.OK
     _same_answers(told, light)
     assert told.aim(np.array([*elsewhere.values()])) is Status.OK
-    seen = np.array([*two.links.start_hub, np.nan, np.nan])
+    seen = np.array([*two.links.start_hub, *4 * [np.nan]])
     for _ in range(3):  # the reference has to stay for a sample
         told.command(seen)
     _same_answers(told, light.replace(**{"control.reference": elsewhere}))
@@ -125,7 +125,7 @@ def test_sensitivities_of_zero_order_are_those_of_what_is_carried_and_where(two:
 def test_sensitivities_of_zero_order_are_those_of_where_a_far_arm_is(two: Bench) -> None:
     """But for how it sags there, until it is near again; half of what it may turn meanwhile does not count."""
     told, there = (RealTimeIteration(two.step, two.links, two.inertia, zero_order=True) for _ in "ab")
-    own, goal, nothing = told.prepared.slopes.hub, told.goal.hub, [np.nan, np.nan]
+    own, goal, nothing = told.prepared.slopes.hub, told.goal.hub, 4 * [np.nan]
     for elbow, near in ((0.9 * FAR, True), (2.0 * FAR, False)):
         told.reset()
         place = goal + np.array([0.0, elbow])
@@ -159,11 +159,11 @@ def _same_answers(found: RealTimeIteration, scene: Scene) -> None:
 def test_an_encoder_that_is_off_makes_the_estimate_wait(two: Bench) -> None:
     """What one of them shows is believed only with the other: the arm is where both say."""
     mpc = LinearMpc(two.links, two.problem, two.inertia)
-    good = np.append(two.links.start_hub, [np.nan, np.nan])
+    good = np.append(two.links.start_hub, 4 * [np.nan])
     assert mpc.command(good).status is Status.OK
     mpc.prepare()
     before = mpc.estimator.ahead([])[0].copy()
-    assert mpc.command(good + np.array([0.001, 0.5, 0.0, 0.0])).status is Status.REDUCED
+    assert mpc.command(good + np.array([0.001, 0.5, *4 * [0.0]])).status is Status.REDUCED
     assert_allclose(mpc.estimator.ahead([])[0], before, atol=0.0)
 
 
@@ -175,19 +175,19 @@ def hubs(rti: RealTimeIteration) -> np.ndarray:
 def test_encoders_go_on_without_one_that_is_not_valid_for_five_samples(two: Bench) -> None:
     """What it shows is not looked at; back again it is believed at once, where the arm is as it was foreseen."""
     rti = RealTimeIteration(two.step, two.links, two.inertia, zero_order=True)
-    good, low, high = np.append(two.links.start_hub, [np.nan, np.nan]), *two.problem.torque
-    flags = np.array([True, False, True, True])
+    good, low, high = np.append(two.links.start_hub, 4 * [np.nan]), *two.problem.torque
+    flags = np.array([True, False, *4 * [True]])
     assert rti.command(good, flags).status is Status.MEASUREMENT  # nobody knows yet where the arm starts
     assert rti.command(good).status is Status.OK
     statuses = []
-    off = np.array([0.0, 1e6, 0.0, 0.0])
+    off = np.array([0.0, 1e6, *4 * [0.0]])
     for _ in range(PATIENCE + 2):
-        command = rti.command(np.append(hubs(rti), [0.0, 0.0]) + off, flags)
+        command = rti.command(np.append(hubs(rti), 4 * [0.0]) + off, flags)
         statuses.append(command.status)
         assert np.all((command.torque >= low) & (command.torque <= high))
     assert statuses == [Status.REDUCED] * PATIENCE + [Status.MEASUREMENT] * 2
     rti.prepare()
-    assert rti.command(np.append(hubs(rti), [np.nan, np.nan])).status is Status.OK
+    assert rti.command(np.append(hubs(rti), 4 * [np.nan])).status is Status.OK
 
 
 def test_without_an_encoder_the_gain_is_that_of_the_covariance(two: Bench) -> None:
@@ -202,7 +202,7 @@ def test_what_a_measurement_changes_is_what_rolling_out_anew_gives(two: Bench) -
     """To first order, two samples late, on the way to the target; there zero order has the same sensitivities."""
     bench = Bench.of(two.scene.replace(**{"control.delay": 0.04}))
     rti = RealTimeIteration(bench.step, bench.links, bench.inertia)
-    rti.command(np.append(bench.links.start_hub, [np.nan, np.nan]))
+    rti.command(np.append(bench.links.start_hub, 4 * [np.nan]))
     rti.prepare()
     about, start = rti._about, rti.estimator.estimate.copy()
     assert about is not None

@@ -19,7 +19,6 @@ from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.kalman import present_sensors
 from tmm_gen.control.reach import Frame
 from tmm_gen.control.rti import RealTimeIteration
-from tmm_gen.errors import UserError
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.native import EmittedController
 
@@ -217,7 +216,7 @@ def test_bounds_and_payload_told_at_run_time_are_those_of_python(
             assert python.limit(np.array(lower), np.array(upper)) is status, k
             if status is Status.OK:
                 low, high = np.maximum(lower, widest[0]), np.minimum(upper, widest[1])
-        seen = plant.measured() * ([np.nan, np.nan, 1, 1] if k in (9, 10) else 1.0)
+        seen = plant.measured() * ([np.nan, np.nan, 1, 1, 1, 1] if k in (9, 10) else 1.0)
         torque = follow_both(emitted, python, seen)
         assert np.all((torque >= low - 1e-12) & (torque <= high + 1e-12)), k
         plant.advance(torque)
@@ -232,7 +231,7 @@ def test_encoders_that_come_and_go_are_those_of_python(two: Bench) -> None:
     low, high = two.problem.torque
     statuses = []
     for _ in range(60):
-        seen, valid = plant.measured(), random.random(4) < 0.75
+        seen, valid = plant.measured(), random.random(6) < 0.75
         for each in (emitted, python):
             for _ in range(random.integers(3)):
                 each.prepare()
@@ -268,7 +267,7 @@ def test_the_arm_does_not_sink_while_encoders_are_lost(
     bench, controller = firm
     for lost in ([1], [0], [0, 1]):
         controller.reset()
-        plant, flags, statuses = Plant(bench.scene, bench.problem, case), np.ones(4, bool), []
+        plant, flags, statuses = Plant(bench.scene, bench.problem, case), np.ones(6, bool), []
         for k in range(80 + 50 + 25):
             if k == 80:
                 rested = plant.angles()
@@ -300,8 +299,3 @@ def test_all_is_well_a_second_after_the_last_wrong_sample(firm: tuple[Bench, Emi
         assert Status.OK in statuses[25:75], spell
         assert set(statuses[75:]) == {Status.OK}, spell
         np.testing.assert_allclose(plant.angles()[2:], bench.problem.reference, atol=5e-3, err_msg=spell)
-
-
-def test_linear_controllers_are_refused_in_a_line(two: Bench) -> None:
-    with pytest.raises(UserError, match="arms on a hub only; for motors by name take one of: rti-zero, rti"):
-        emit_controller(two, "mpc-modes")

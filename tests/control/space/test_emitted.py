@@ -14,6 +14,7 @@ from tmm_gen.control.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.course import Course
 from tmm_gen.control.credible import PATIENCE
 from tmm_gen.control.extended_kalman import NonlinearFilter
@@ -24,7 +25,7 @@ from tmm_gen.control.walls import Wall
 from tmm_gen.onboard.emit import emit_controller, usual_controller
 from tmm_gen.onboard.native import EmittedController
 from tmm_gen.onboard.weight import Weight, weight_of
-from tmm_gen.scene import parse_scene
+from tmm_gen.scene import Scene, parse_scene
 
 pytestmark = pytest.mark.compiler
 
@@ -69,7 +70,7 @@ def test_encoders_that_come_and_go_are_those_of_python(bench: Bench, zero: Emitt
         if k in told:
             taken = {0.1: Status.OK, 0.6: Status.OK, 9.0: Status.INFEASIBLE}.get(told[k], Status.NOT_FINITE)
             assert zero.carry(told[k]) is python.carry(told[k]) is taken
-        seen, valid = plant.measured(), random.random(4) < (0.8 if k < 30 else float(k >= 40))
+        seen, valid = plant.measured(), random.random(6) < (0.8 if k < 30 else float(k >= 40))
         expected, found = python.command(seen, valid), zero.command(np.where(valid, seen, 7.0), valid)
         assert_allclose(found.torque, expected.torque, rtol=0.0, atol=DAQP)
         assert found.status is expected.status
@@ -175,3 +176,38 @@ def test_what_holds_up_a_rigid_arm_is_a_sum_of_products(bench: Bench) -> None:
     heavier = Weight(tuple(replace(term, amount=term.more) for term in weight.terms))
     assert_allclose([0.5 * heavier.torques(hub) for hub in hubs], asked, rtol=0.0, atol=1e-12)
     assert len(weight.terms) < 4  # the yaw carries nothing, and turns nothing that weighs
+
+
+def test_accelerometers_and_gauges_are_those_of_python(reach: Scene) -> None:
+    """Full sensitivities: two accelerometers at the payload, a gauge on the beam, each there or not at random."""
+    sensors = {"control.sensors.accelerometer": 0.02, "control.sensors.strain": {"lift": 0.01}}
+    felt = Bench.of(reach.replace(**sensors))
+    emitted, python = compiled(felt, *emit_controller(felt, "rti")), in_python(felt, "rti")
+    plant, random = plant_of(felt.scene, felt.problem, CONDITIONS[1], seed=2), np.random.default_rng(5)
+    statuses = []
+    for _ in range(30):
+        seen, valid = plant.measured(), random.random(6) < 0.85
+        expected, found = python.command(seen, valid), emitted.command(np.where(valid, seen, 7.0), valid)
+        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=1e-10)
+        assert found.status is expected.status
+        statuses.append(found.status)
+        plant.advance(expected.torque)
+    assert {Status.OK, Status.REDUCED} <= set(statuses)
+
+
+def test_linear_control_is_that_of_python(reach: Scene) -> None:
+    """By modes, late, with all sensors; encoders lost for long, so that the safe law holds the arm up."""
+    sensors = {"control.sensors.accelerometer": 0.02, "control.sensors.strain": {"lift": 0.01}}
+    felt = Bench.of(reach.replace(**sensors, **{"control.delay": 0.03}))
+    emitted, python = compiled(felt, *emit_controller(felt, "mpc-modes")), BY_NAME["mpc-modes"].make(felt)
+    plant, random = plant_of(felt.scene, felt.problem, CONDITIONS[1], seed=2), np.random.default_rng(5)
+    statuses = []
+    for k in range(50):
+        seen, valid = plant.measured(), random.random(6) < 0.9
+        valid[:2] &= not 25 <= k < 35
+        expected, found = python.command(seen, valid), emitted.command(np.where(valid, seen, 7.0), valid)
+        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=1e-10)
+        assert found.status is expected.status
+        statuses.append(found.status)
+        plant.advance(expected.torque)
+    assert {Status.OK, Status.REDUCED, Status.MEASUREMENT} <= set(statuses)

@@ -6,10 +6,13 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.control import Control
 from tmm_gen.scene.parts.document import PartsDocument
-from tmm_gen.scene.problem import Finding
+from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.rules.control import told_by_name, within_reach
 from tmm_gen.scene.rules.control_trajectory import can_be_followed
 from tmm_gen.scene.table import closest
+
+_OF_SOME: tuple[Path, ...] = (("control", "sensors", "accelerometer"), ("control", "sensors", "strain"))
+"""What some motors have and others need not."""
 
 
 def motors_controlled(document: PartsDocument) -> Iterator[Finding]:
@@ -36,7 +39,7 @@ def motors_controlled(document: PartsDocument) -> Iterator[Finding]:
 
 
 def motors_told(control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
-    """Find a controller of no motor, of motors there are not, or of sensors that only an arm on a hub has.
+    """Find a controller of no motor, or of motors there are not.
 
     Parameters
     ----------
@@ -55,18 +58,11 @@ def motors_told(control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
         for name in (name for name in values if name not in motors):
             broken = True
             yield Finding((*path, name), "is not the name of a driven motor", closest(name, motors))
-        if missing := [name for name in motors if name not in values]:
+        missing = [name for name in motors if name not in values]
+        if missing and path not in _OF_SOME:
             broken = True
             yield Finding(
                 path, f"leaves out {', '.join(missing)}", f"Write one value for each of {', '.join(motors)}."
-            )
-    for sensor in ("accelerometer", "strain"):
-        if getattr(control.sensors, sensor) is not None:
-            yield Finding(
-                ("control", "sensors", sensor),
-                "is read on arms on a hub only: an arm by parts has the encoders of its motors",
-                "Remove the key.",
-                getattr(control.sensors, sensor),
             )
     if not broken:
         yield from within_reach(control, motors)
