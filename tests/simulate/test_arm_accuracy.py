@@ -1,4 +1,4 @@
-"""What a run of an arm says of its error where longer steps tell little of it: motions whose error is known, made up."""
+"""What a run of an arm says of its error where longer steps tell little of it: made-up motions with known errors."""
 
 from __future__ import annotations
 
