@@ -31,6 +31,8 @@ AWAY = 0.05
 FAR = 1.5
 """Where a joint is so far from where it is to rest, they are taken about where the arm is, rad: an arm without gears,
 if folded, may turn so much more easily that it would be thrown from side to side for ever."""
+FAR_AT_WALLS = 0.75
+"""The same where there are walls: one that is met there is met by what torques do there, or the arm swings before it."""
 TURNED = 0.5
 """How far a joint may turn meanwhile before they are taken anew, rad."""
 MOVING = 1e-3
@@ -123,7 +125,7 @@ class RealTimeIteration(Movable):
         goal, (hub, _) = self.goal.hub, self.estimator.hubs()
         moving = np.max(np.abs(goal - self._aimed)) > MOVING
         self._aimed = goal
-        if np.max(np.abs(hub - goal)) > FAR:
+        if np.max(np.abs(hub - goal)) > (FAR_AT_WALLS if self.walls else FAR):
             if np.max(np.abs(hub - self._renewed_at)) > TURNED:
                 self._renew(hub)
         elif not moving and np.max(np.abs(goal - self._renewed_at)) > AWAY:

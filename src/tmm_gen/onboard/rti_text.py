@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.c_language.names import macros
 from tmm_gen.control.motor_rows import Motor
-from tmm_gen.control.rti import AWAY, FAR, MOVING, TURNED
+from tmm_gen.control.rti import AWAY, FAR, FAR_AT_WALLS, MOVING, TURNED
 from tmm_gen.control.terms import Kind
 from tmm_gen.onboard.wall_text import WallText
 
@@ -62,7 +62,7 @@ class RtiText(WallText):
     @property
     def renewal(self) -> tuple[float, float, float, float]:
         """When they are found anew, rad: see the constants of :mod:`tmm_gen.control.rti`."""
-        return MOVING, AWAY, FAR, TURNED
+        return MOVING, AWAY, FAR_AT_WALLS if self.walls else FAR, TURNED
 
     @property
     def keeps_program(self) -> bool:
