@@ -32,7 +32,7 @@ FAR = 1.5
 """Where a joint is so far from where it is to rest, they are taken about where the arm is, rad: an arm without gears,
 if folded, may turn so much more easily that it would be thrown from side to side for ever."""
 FAR_AT_WALLS = 0.75
-"""The same where there are walls: one that is met there is met by what torques do there, or the arm swings before it."""
+"""The same where there are walls: an arm that meets one there must be known as it is there, or swings before it."""
 TURNED = 0.5
 """How far a joint may turn meanwhile before they are taken anew, rad."""
 MOVING = 1e-3
