@@ -4,7 +4,8 @@
 
 Both from the scene's own C, without reading outputs; the arms differ. One after another: the kernel as emitted, own
 sines too. gcc -O3 -march=native without fused multiply-add, processor time of one thread, by turns; ratios within a
-round, then their median. What a second thread gains is told by the clock on the wall: on an idle machine only.
+round, then their median. What a second thread gains is told by the clock on the wall, of whole calls with more arms,
+start and all: on an idle machine only, or with `--busy`, where it is less than it could be.
 `--update` writes the table into docs/batch.md.
 """
 
@@ -15,6 +16,7 @@ import math
 import os
 import statistics
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -34,9 +36,15 @@ PAGE = ROOT / "docs" / "batch.md"
 SCENES = ("scenes/thesis10", "scenes/arm10", "scenes/arm50", "scenes/elbow", "examples/space/yaw3")
 LANES = ((4, "float64"), (8, "float64"), (16, "float32"))
 ARMS = 512
+SHARED = 4096
+"""Arms that threads share."""
+STEPS = 1000
+"""That they take then, or fewer where that takes too long."""
 ROUNDS = 15
 _SECONDS = 0.05
 """Of processor time, about, that a round of a batch takes."""
+_LONGEST = 0.4
+"""Seconds, about, that one thread takes for what threads share."""
 _BUSY = 0.5
 """Mean load of the machine at the start above which a second thread has no processor of its own."""
 
@@ -47,28 +55,34 @@ def measured(scene: Scene, rounds: int, idle: bool) -> dict[str, object]:
     batch = compile_batch(program, scene)
     kernel = compile_kernel(program, scene, flags=("-O3", *FLAGS[1:], *machine_flags("gcc")))
     alone = kernel.timer()
-    stiffness = np.asarray(program.parameters[0].default)[..., None] * np.linspace(0.999, 1.001, ARMS)
-    params = {program.parameters[0].name: stiffness}
+    drawn = {
+        arms: {program.parameters[0].name: np.multiply.outer(default, np.linspace(0.999, 1.001, arms))}
+        for default in (np.asarray(program.parameters[0].default),)
+        for arms in (ARMS, SHARED)
+    }
     per_link = 1.0 / scene.stations
 
-    def seconds(steps: int, threads: int, clock: object = time.process_time) -> float:
-        assert callable(clock)
+    def seconds(
+        steps: int, threads: int = 1, arms: int = ARMS, clock: Callable[[], float] = time.process_time
+    ) -> float:
         start = clock()
-        run = batch.simulate(
-            steps * scene.integrator.step, params=params, threads=threads, every=max(1, steps), arms=ARMS
-        )
+        duration = steps * scene.integrator.step
+        run = batch.simulate(duration, params=drawn[arms], threads=threads, every=max(1, steps), arms=arms)
         assert not run.status.any()
-        return float(clock() - start)
+        return clock() - start
 
-    steps = max(10, int(20 * _SECONDS / max(seconds(20, 1), 1e-6)))
+    each = max(min(seconds(60) - seconds(10) for _ in range(3)), 1e-6) / 50
+    steps = max(10, int(_SECONDS / each))
+    many_steps = max(100, min(STEPS, int(_LONGEST * ARMS / SHARED / each)))
     together, ratios, gains = [], [], []
     for _ in range(rounds):
         one = alone()
-        many = 1e9 * (seconds(steps, 1) - seconds(0, 1)) / (steps * ARMS)
+        many = 1e9 * (seconds(steps) - seconds(0)) / (steps * ARMS)
         together.append(many * per_link)
         ratios.append(many / one)
         if idle and processors() > 1:
-            gains.append(seconds(steps, 1, time.perf_counter) / seconds(steps, 2, time.perf_counter))
+            first, second = (seconds(many_steps, threads, SHARED, time.perf_counter) for threads in (1, 2))
+            gains.append(first / second)
     return {
         "scene": scene.name,
         "numbers": f"{scene.emit.batch} x {scene.emit.real}",
@@ -81,7 +95,8 @@ def measured(scene: Scene, rounds: int, idle: bool) -> dict[str, object]:
 def told(rows: list[dict[str, object]], rounds: int) -> str:
     """Return the rows as a table of the page."""
     lines = [
-        f"Medians of {rounds} rounds of {ARMS} arms; times are of one thread. "
+        f"Medians of {rounds} rounds of {ARMS} arms; times are of one thread. Two threads: how many times as fast as "
+        f"one they are with {SHARED} arms and {STEPS} steps (100 or more where these would take long), whole calls. "
         "A dash: others were busy on this machine.",
         "",
         "| scene | side by side | ns per arm, link and step | over one after another | two threads |",
@@ -105,11 +120,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--out", type=Path, default=Path("out/bench"))
     parser.add_argument("--rounds", type=int, default=ROUNDS)
+    parser.add_argument("--busy", action="store_true", help="measure threads though others are busy")
     parser.add_argument("--update", action="store_true", help="write the table into docs/batch.md")
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
     rows: list[dict[str, object]] = []
-    idle = os.getloadavg()[0] < _BUSY
+    idle = given.busy or os.getloadavg()[0] < _BUSY
     with progress("arms side by side", len(SCENES) * len(LANES)) as advance:
         for path in SCENES:
             for lanes, real in LANES:

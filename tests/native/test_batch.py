@@ -219,6 +219,24 @@ def test_threads_and_what_is_kept_change_no_bit() -> None:
     np.testing.assert_allclose(runs[2].times, runs[0].times[::7], rtol=1e-15)
 
 
+def test_what_cannot_start_harms_nobody_in_any_thread() -> None:
+    """One in a share, and all of the last one; zeros keep their sign where all arms have the same input."""
+    scene, batch, _ = compiled("stages")
+    count, duration, name = 200, 5 * scene.integrator.step, batch.program.parameters[0].name
+    value = np.asarray(batch.program.parameters[0].default)[..., None] * np.linspace(0.9, 1.1, count)
+    sound = batch.simulate(duration, {"hub_torque": np.full((5, count), -0.0)}, {name: value}, threads=1)
+    spoilt = value.copy()
+    lost = np.r_[70, 192:200]
+    spoilt[..., lost] = np.nan
+    for threads in (1, 3):
+        run = batch.simulate(duration, {"hub_torque": np.full((5, 1), -0.0)}, {name: spoilt}, threads=threads)
+        assert np.flatnonzero(run.status).tolist() == lost.tolist()
+        for output, values in run.outputs.items():
+            assert np.isnan(values[:, lost]).all()
+            kept, own = (np.delete(found, lost, axis=1) for found in (values, sound.outputs[output]))
+            np.testing.assert_array_equal(kept.view(np.int64), own.view(np.int64))
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

@@ -80,6 +80,18 @@ int main(void)
         || {name}_run_batch(1, 0, 1, 1, 0, &model, state, {signals}NULL, status) != -1) {{
         return 6;
     }}
+    {name}_state started;
+    memset(&started, 0, sizeof started);
+    memset(&state[0], 0, sizeof state[0]);
+    if ({name}_start_batch(0, 1, &params, {NAME}_STEP{given}, &input, &model, &started, status) || status[0]
+        || {name}_initialise(&state[0], &params{given}, &input{step}) || memcmp(&started, &state[0], sizeof started)) {{
+        return 7;
+    }}
+    if ({name}_start_batch(0, 1, &params, -{NAME}_STEP{given}, &input, &model, state, status) != 1 || !status[0]
+        || {name}_start_batch(1, 0, &params, {NAME}_STEP{given}, &input, &model, state, status) != -1
+        || {name}_start_batch(0, 1, NULL, {NAME}_STEP{given}, &input, &model, state, status) != -1) {{
+        return 8;
+    }}
     puts("same");
     return 0;
 }}

@@ -15,6 +15,9 @@ from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.structs import Struct, dimension
 from tmm_gen.emit.seal import sealed
 from tmm_gen.emit.templates import render
+from tmm_gen.program.passes.contract import contract
+from tmm_gen.program.passes.fuse import fuse
+from tmm_gen.program.passes.join import join
 from tmm_gen.program.statements import Loop, Repeat, Routine
 
 _LOOKED_AHEAD = 64
@@ -81,6 +84,9 @@ class Batch:
         kernel = self.kernel
         if any(isinstance(mark, Repeat) for mark in routine.statements()):
             raise ValueError(f"{routine.name}: arms side by side cannot each repeat as often as they need")
+        routine = contract(
+            join(fuse(routine))
+        )  # nothing of one arm is to be done for several stations at once
         own = kernel.circle is not None
         fence = kernel.fences.get(routine.name, Fence())
         return BatchBody(kernel.program, routine, kind, kernel.real, own, fence, judged=kind == "step")

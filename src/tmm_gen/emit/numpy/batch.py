@@ -54,7 +54,6 @@ def emit_batch_module(program: Program, scene: Scene, header: list[str]) -> str:
                 for v in program.given
             ],
             prescribed=prescribed,
-            starts_from_step=program.step in program.initialise.read(),
         )
     )
 
