@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -183,25 +183,25 @@ class NativeBatch:
         first = {name: at_start(name, signals[name], array, count) for name, array in series.items()}
         kept = np.empty((steps // every + 1, len(program.outputs), count), dtype=self._real)
         status = np.zeros(count, dtype=np.intc)
-        start = self._start_of(count, values, step, first)
+        begin = self._beginning(count, values, step, first)
         signals_in_c = signal_structs(program, series)
         models, states = (
             np.zeros((count, ctypes.sizeof(self._types[which])), np.uint8) for which in ("model", "state")
         )
 
         def run(first: int, end: int) -> None:
-            here, these = slice(first, end), (ctypes.c_long(first), ctypes.c_long(end))
-            arms = (_pointer(models), _pointer(states))
-            none_lost = self._start(*these, *start, *arms, _pointer(status)) == 0
+            here, length = slice(first, end), ctypes.c_long(end - first)
+            own = (_pointer(models[here]), _pointer(states[here]), _pointer(status[here]))
+            none_lost = self._start(ctypes.c_long(0), length, *begin(here), *own) == 0
             begun = status[here].copy()
             lost = begun != 0
             if not lost.all():
                 if not none_lost:  # what could not start has another's place
                     sound = first + int(np.argmin(lost))
                     models[here][lost], states[here][lost] = models[sound], states[sound]
-                lengths = (ctypes.c_long(steps), ctypes.c_long(every))
+                lengths = map(ctypes.c_long, (count, first, end, steps, every))
                 outcome = (_pointer(kept), _pointer(status))
-                self._run(ctypes.c_long(count), *these, *lengths, *arms, *signals_in_c, *outcome)
+                self._run(*lengths, _pointer(models), _pointer(states), *signals_in_c, *outcome)
             if not none_lost:
                 status[here][lost], kept[..., here][..., lost] = begun[lost], np.nan
 
@@ -209,31 +209,39 @@ class NativeBatch:
         outputs = {v.name: kept[:, index] for index, v in enumerate(program.outputs)}
         return BatchRun(np.arange(kept.shape[0]) * (every * step), outputs, status)
 
-    def _start_of(
+    def _beginning(
         self, arms: int, values: Mapping[str, ArrayLike], step: float, first: Mapping[str, Numbers]
-    ) -> tuple[Any, ...]:
-        """Return what arms are prepared and started from, as arguments of C that keep their memory alive."""
+    ) -> Callable[[slice], tuple[Any, ...]]:
+        """Return what gives, for some of the arms, what they are prepared and started from, as arguments of C."""
         default = self._types["params"]()
         self._handle.batch_defaults(ctypes.byref(default))
-        params = np.tile(np.frombuffer(bytes(default), dtype=self._real), (arms, 1))
-        for variable, place in columns(self._structs["params"]):
-            if variable.name in values:
-                params[:, place] = self._of_arms(variable, values, arms)
-        inputs = np.zeros((arms, ctypes.sizeof(self._types["inputs"])), np.uint8).view(self._real)
-        for variable, place in columns(self._structs["inputs"]):
-            if variable.name in first:
-                inputs[:, place] = first[variable.name][:, None]
-        starts = [
-            np.ascontiguousarray(self._of_arms(v, values, arms)) if v.name in values else None
-            for v in self.program.given
-        ]
+        usual = np.frombuffer(bytes(default), dtype=self._real)
+        given = [v if v.name in values else None for v in self.program.given]
+        rows = {
+            v.name: by_arm(v, values[v.name], arms)
+            for v in (*self._structs["params"].variables, *given)
+            if v is not None and v.name in values
+        }
         number: Any = ctypes.c_float if self._real is np.float32 else ctypes.c_double
-        given = (None if start is None else _pointer(start) for start in starts)
-        return _pointer(params), number(step), *given, _pointer(inputs)
+        width = ctypes.sizeof(self._types["inputs"])
 
-    def _of_arms(self, variable: Variable, values: Mapping[str, ArrayLike], arms: int) -> Numbers:
-        """Return a parameter or a start in the kernel's numbers, shape (arms, length)."""
-        return numbers(variable.name, by_arm(variable, values[variable.name], arms), self._real)
+        def begin(here: slice) -> tuple[Any, ...]:
+            def of(variable: Variable) -> Numbers:
+                return numbers(variable.name, rows[variable.name][here], self._real)
+
+            count = here.stop - here.start
+            params = np.tile(usual, (count, 1))
+            for variable, place in columns(self._structs["params"]):
+                if variable.name in rows:
+                    params[:, place] = of(variable)
+            inputs = np.zeros((count, width), np.uint8).view(self._real)
+            for variable, place in columns(self._structs["inputs"]):
+                if variable.name in first:
+                    inputs[:, place] = first[variable.name][here, None]
+            starts = (None if v is None else _pointer(np.ascontiguousarray(of(v))) for v in given)
+            return _pointer(params), number(step), *starts, _pointer(inputs)
+
+        return begin
 
 
 def _pointer(array: NDArray[Any]) -> Any:

@@ -14,7 +14,7 @@ def shares(arms: int, workers: int) -> Iterator[tuple[int, int]]:
     first = 0
     while first < arms:
         left = -(-(arms - first) // GRAIN)
-        each = left if workers == 1 else max(1, left // (2 * workers))
+        each = left if workers == 1 else max(1, 3 * left // (4 * workers))
         end = min(first + each * GRAIN, arms)
         yield first, end
         first = end
