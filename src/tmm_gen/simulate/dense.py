@@ -103,10 +103,12 @@ class Dense:
             solved = np.stack([step.values[name][-1] for name in names], axis=1)
             if newest in motions:  # else it is of a turn, which is no sum of these
                 q, v = motions[newest]
-                angle, rate = step.values[q][0], step.values[v][0]
-                h = _over(step.spans, angle)
-                found[q] = angle + _over(step.shares, angle) * h * rate + h**2 * _summed(twice, solved)
-                found[v] = rate + h * _summed(once, solved)
+                h = _over(step.spans, solved[:, 0])
+                if v in step.values:  # where a base that floats is, and how it moves, need not be kept
+                    found[v] = step.values[v][0] + h * _summed(once, solved)
+                if q in step.values:
+                    gone = _over(step.shares, h) * h * step.values[v][0]
+                    found[q] = step.values[q][0] + gone + h**2 * _summed(twice, solved)
             found[newest] = _summed(stages.weights(step.shares), solved)
             # stages of a step that ends there, along the same polynomial
             found |= {name: _summed(w, solved) for name, w in zip(names, there, strict=True)}

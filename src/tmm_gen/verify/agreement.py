@@ -75,7 +75,13 @@ def random_vectors(program: Any, count: int = VECTORS, seed: int = 0) -> Iterato
 
 
 def reached_vectors(
-    module: ModuleType, program: Any, count: int = VECTORS, seed: int = 0, *, relative: bool = False
+    module: ModuleType,
+    program: Any,
+    count: int = VECTORS,
+    seed: int = 0,
+    *,
+    relative: bool = False,
+    about: Array | None = None,
 ) -> Iterator[Vector]:
     """Yield states that an arm reaches within some steps from random, gently bent and moving starts.
 
@@ -93,9 +99,13 @@ def reached_vectors(
         Of the random numbers.
     relative : bool
         Whether angles are those of joints, which start about where the scene has them, and not of links.
+    about : array, (n,), optional
+        Angles about which links start, rad; 0 if left out.
     """
     random = np.random.default_rng(seed)
-    rest = np.array(next(v.default for v in program.given if v.name == "initial_angle")) if relative else 0.0
+    rest = about if about is not None else 0.0
+    if relative:
+        rest = np.array(next(v.default for v in program.given if v.name == "initial_angle"))
     model, n = module.prepare(), program.stations
     takes_step = "step" in inspect.signature(module.initialise).parameters
     for taken in range(len(program.steps)):
@@ -112,7 +122,7 @@ def reached_vectors(
             start = (
                 {"initial_angle": rest + bend, "initial_rate": turn}
                 if relative
-                else {"initial_angle": points + np.cumsum(bend), "initial_rate": np.cumsum(turn)}
+                else {"initial_angle": points + rest + np.cumsum(bend), "initial_rate": np.cumsum(turn)}
             )
             if takes_step:
                 start["step"] = program.step.default

@@ -37,7 +37,7 @@ _SMALL = 0.01
 _HALVINGS = 4
 _ROUNDED, _FEWEST = 1e-13, 8
 """rad; of errors smaller than this rounding is a part: coarser steps are fitted, down to so few in all."""
-_ITERATIONS = 3
+_ITERATIONS = 5
 """Of coupled stages: as many as leave nothing that the order could be told from."""
 _STEADY = 1e-10
 """rad; a motion this close to constant rates has no order: every integrator steps it exactly."""
