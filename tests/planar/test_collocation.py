@@ -195,24 +195,6 @@ def test_what_does_not_go_with_them_is_told_with_a_remedy(
     assert all(str(value) in str(caught.value) for value in remedy.values())
 
 
-@pytest.mark.parametrize(
-    ("path", "told"),
-    [
-        ("scenes/cube.toml", "does not go with a base that floats yet"),
-        ("scenes/elbow.toml", "does not go with elastic gears yet"),
-    ],
-)
-def test_arms_they_do_not_go_with_are_told_what_to_write(path: str, told: str) -> None:
-    scene = load_scene(ROOT / path)
-    if path.endswith("elbow.toml"):
-        scene = scene.replace(**{"motor.1.stiffness": 100.0})
-    with pytest.raises(SceneError, match=told) as caught:
-        scene.replace(**{"integrator.name": "radau3"})
-    assert '`name = "sdirk4"`' in str(caught.value)
-    assert "radau3" not in scene.integrators
-    assert scene.replace(**{"integrator.name": "sdirk4"}).integrator.name == "sdirk4"
-
-
 def test_controllers_say_that_they_need_derivatives() -> None:
     scene = load_scene(ROOT / "scenes" / "swing.toml").replace(**{"integrator.name": "gauss2"})
     with pytest.raises(UserError, match="use an integrator such as 'newmark'"):

@@ -64,9 +64,8 @@ def _require_carried(scene: Scene, chosen: Integrator) -> None:
     """Refuse an arm that methods whose stages are coupled do not go with yet."""
     if chosen.main.coupled and chosen.name not in scene.integrators:
         raise UserError(
-            f"scene '{scene.name}': {chosen.name} solves all its stages at once, which is not derived yet for a base "
-            "that floats, for elastic gears and, in space, for linearisation = 'newton'; use an integrator such as "
-            "'sdirk4'"
+            f"scene '{scene.name}': {chosen.name} solves all its stages at once, which is not derived in space for "
+            "linearisation = 'newton'; use an integrator such as 'sdirk4'"
         )
 
 

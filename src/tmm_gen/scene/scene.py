@@ -126,11 +126,9 @@ class Scene:
 
     @property
     def integrators(self) -> tuple[str, ...]:
-        """Names of the integrators that serve it: those whose stages are coupled do not serve all arms yet."""
-        shafts = not self.model.linear and any(link.massless for link in self.links)
+        """Names of the integrators that serve it: those whose stages are coupled go with one linearisation."""
         in_space = self.spatial is not None and self.model.linearisation == "newton"
-        uncoupled = in_space or self.floats or shafts
-        return tuple(method.name for method in methods.METHODS if not (method.coupled and uncoupled))
+        return tuple(method.name for method in methods.METHODS if not (method.coupled and in_space))
 
     @property
     def drivetrain(self) -> bool:

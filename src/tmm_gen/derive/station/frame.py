@@ -57,6 +57,11 @@ def predicted_force(coordinate: Coordinate) -> sp.Symbol:
     return sp.Symbol(f"predicted_{coordinate.force}", real=True)
 
 
+def lacking(coordinate: Coordinate) -> sp.Symbol:
+    """Return what the equations of a base that moves freely leave over."""
+    return RESIDUAL if coordinate.integrated else sp.Symbol(f"residual_{coordinate.name}", real=True)
+
+
 @dataclass(frozen=True)
 class Frame:
     """What a recursion is derived for.

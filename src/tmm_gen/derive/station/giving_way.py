@@ -10,7 +10,7 @@ from tmm_gen.derive.station.frame import RESIDUAL
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Let, Line, Pivot
 from tmm_gen.derive.station.motion import Passed
-from tmm_gen.derive.station.shaft import TORQUES, Shaft
+from tmm_gen.derive.station.shaft import PASSED, TORQUES, Shaft
 from tmm_gen.derive.station.written import cheapest, grouped
 
 ADMITTANCE = sp.Symbol("admittance", real=True)
@@ -41,7 +41,7 @@ class GivingWay:
         self.ahead: list[Line] = []
         """What known forces need besides motion: of parameters and gains alone."""
         self.known: list[Let] = []
-        """Its forces at the point of linearisation."""
+        """Its forces at the point of linearisation; where these are told by what is left over, what shafts do of it."""
         self.answers: dict[str, sp.Expr] = {}
         """What the way out needs of its unknown: how that answers to what."""
         self.columns: dict[sp.Symbol, sp.Expr] = {}
@@ -79,6 +79,8 @@ class GivingWay:
         if self._frame.predicted or self._frame.corrected:
             self._name_columns()
         self._pass_on(stiffness, known, more)
+        if self._frame.residual:
+            self.known = self._of_over()
 
     def _on_shaft(self, turning: Passed, gear: sp.Expr, known: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
         """Eliminate the shaft between what turns it and its gear; return stiffness and torque of both together."""
@@ -93,7 +95,7 @@ class GivingWay:
     def _answer(self, stiffness: sp.Expr, known: sp.Expr, inner_stiffness: sp.Expr) -> None:
         """Solve for the unknown: how it answers to forces and to the motion of the inner side."""
         sign, carried, own = self._sign, self._carried, self._frame.own
-        over = (RESIDUAL if self._frame.residual else known) - self._bias
+        over = (RESIDUAL + self._over if self._frame.residual else known) - self._bias
         carried.lines += [
             Let(PIVOT, stiffness + sign * self._load, "pivot of the joint"),
             Pivot(PIVOT),
@@ -168,8 +170,7 @@ class GivingWay:
             forces[own] = self._shares(known, stiffness) + more + more_outer * OWN
         else:
             forces[own] = (more_outer - ratio * sign * stiffness) * OWN
-            if not frame.residual:
-                forces[own] += ratio * known + more
+            forces[own] += ratio * self._over if frame.residual else ratio * known + more
         carried.set(impedances, forces)
         carried.predict(
             [ratio * known + more if i == own else carried.predicted[i] for i in range(len(self._names))]
@@ -193,6 +194,15 @@ class GivingWay:
             )
         )
         return passes * self._bias + REFLECTION * known
+
+    def _of_over(self) -> list[Let]:
+        """Return what a shaft does where what the equations leave over is given."""
+        return self.shaft.over if self.shaft else []
+
+    @property
+    def _over(self) -> sp.Expr:
+        """Return what a shaft passes on where what the equations leave over is given."""
+        return PASSED if self.shaft else ZERO
 
     def _gain(self, value: sp.Expr, motion: object) -> sp.Expr:
         return sp.expand(sp.Add(*(self._frame.gains[k] * partial(value, getattr(motion, k)) for k in KINDS)))

@@ -13,8 +13,8 @@ from tmm_gen.derive.station.giving_way import TORQUE
 from tmm_gen.derive.station.law import KINDS
 from tmm_gen.derive.station.lets import Let, Line, Update
 from tmm_gen.derive.station.motion import Outward, Passed
+from tmm_gen.derive.station.shaft import TORQUES, gap
 from tmm_gen.derive.station.written import grouped
-from tmm_gen.errors import UserError
 
 
 @dataclass(frozen=True)
@@ -25,11 +25,14 @@ class Residual:
     ----------
     known : tuple of Let
         Own force of the element that gives way.
+    on_shaft : tuple of Let
+        Where there is a shaft, what is over of the torques on it.
     lines : tuple of Line
         Forces at the inner side, and what is left over.
     """
 
     known: tuple[Let, ...]
+    on_shaft: tuple[Let, ...]
     lines: tuple[Line, ...]
 
 
@@ -45,30 +48,24 @@ def residual(elements: tuple[Element, ...], frame: Frame, *, moved: bool = False
         Whose gains do not matter.
     moved : bool
         Whether they stand at an end of the row, where nothing gives way.
-
-    Raises
-    ------
-    UserError
-        If two elements of a station give way: the motion of what lies between them is not carried.
     """
     out = Outward(elements, frame, moved=moved)
-    if out.turning is not None:
-        raise UserError(
-            f"element '{out.turning.element.name}': what the equations of a shaft without inertia leave over is not "
-            "derived yet. Use an integrator whose stages are solved one after another, such as 'sdirk4'."
-        )
     known: list[Let] = []
+    on_shaft: list[Let] = []
     lines: list[Line] = []
     forces = [force(c) for c in frame.coordinates]
+    own = sp.Integer(0)
     for passed in reversed(out.passed):
+        if (
+            passed is out.turning
+        ):  # inward goes the torque of its gear, and what is over on the shaft is told apart
+            turns = _named(on_shaft, _own(passed, frame), TORQUES[0], "torque on each shaft at a stage")
+            on_shaft.append(gap((turns, own)))
+            continue
         outside = dict(zip(passed.element.outboard.forces, forces, strict=True))
-        own = sp.Integer(0)
         if passed.law.free is not None:
-            own = _own(passed, frame)
-            if not own.is_Atom:
-                doc = "torque of each joint at a stage"
-                known.append(Let(TORQUE, own, doc, "N m"))
-                own = TORQUE
+            named = TORQUES[1] if out.turning else TORQUE
+            own = _named(known, _own(passed, frame), named, "torque of each joint at a stage")
             doc = "torque that the equations leave over at each joint"
             lines.append(Let(RESIDUAL, own - forces[frame.own], doc, "N m"))
         update: dict[sp.Symbol, sp.Expr] = {}
@@ -81,7 +78,15 @@ def residual(elements: tuple[Element, ...], frame: Frame, *, moved: bool = False
                 update[symbol] = value
         if update:
             lines.append(Update(update))
-    return Residual(tuple(known), tuple(lines))
+    return Residual(tuple(known), tuple(on_shaft), tuple(lines))
+
+
+def _named(lets: list[Let], value: sp.Expr, symbol: sp.Symbol, doc: str) -> sp.Expr:
+    """Return what stands for a torque, and name it where it takes arithmetic."""
+    if value.is_Atom:
+        return value
+    lets.append(Let(symbol, value, doc, "N m"))
+    return symbol
 
 
 def _own(passed: Passed, frame: Frame) -> sp.Expr:

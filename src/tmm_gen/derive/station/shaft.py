@@ -22,6 +22,8 @@ _SHARES = sp.symbols("mount_share gear_share", real=True)
 _PIVOT, _ADMITTANCE = sp.symbols("shaft_pivot shaft_admittance", real=True)
 GAP = sp.Symbol("torque_gap", real=True)
 """What is over of the torques on a shaft."""
+PASSED = sp.Symbol("passed_gap", real=True)
+"""What of it the shaft passes on to both its sides as it gives way."""
 _OF = "torque on a shaft per difference of unknowns, of what turns it", "the same of its gear"
 _IN = "share of what it is mounted on in a shaft's motion", "share of what its gear turns in a shaft's motion"
 
@@ -68,12 +70,22 @@ class Shaft:
 
     def known(self, torque: sp.Symbol, doc: str) -> list[Let]:
         """Return the torque of both together, and how their difference moves the shaft."""
-        doc_of_own = "unknown of a shaft if both its sides kept their motion"
         return [
-            Let(GAP, self.torques[0] - self.torques[1], "what is over of the torques on a shaft", "N m"),
-            Let(OWN, self.sign * _ADMITTANCE * GAP, doc_of_own),
+            gap(self.torques),
+            self._moved,
             Let(torque, self.torques[1] + self._named(_SHARES)[1] * GAP, doc, "N m"),
         ]
+
+    @property
+    def over(self) -> list[Let]:
+        """Return how what is known to be over moves the shaft, and what of it both together have beside the gear's."""
+        doc = "what is over of the torques on a shaft, as it passes it on"
+        return [self._moved, Let(PASSED, self._named(_SHARES)[1] * GAP, doc, "N m")]
+
+    @property
+    def _moved(self) -> Let:
+        doc = "unknown of a shaft if both its sides kept their motion"
+        return Let(OWN, self.sign * _ADMITTANCE * GAP, doc)
 
     def answer(self, inner: sp.Symbol, outer: sp.Symbol) -> Line:
         """Return its unknown by those of both its sides."""
@@ -83,3 +95,14 @@ class Shaft:
     def _named(self, symbols: tuple[sp.Symbol, sp.Symbol]) -> list[sp.Expr]:
         """Return what stands for a value of both sides, zero where a method leaves no torque there."""
         return [symbol if law != 0 else sp.Integer(0) for symbol, law in zip(symbols, self.laws, strict=True)]
+
+
+def gap(torques: tuple[sp.Expr, sp.Expr]) -> Let:
+    """Return what is over of the torques on a shaft.
+
+    Parameters
+    ----------
+    torques : tuple of 2 sympy.Expr
+        Of what turns it, and of its gear.
+    """
+    return Let(GAP, torques[0] - torques[1], "what is over of the torques on a shaft", "N m")

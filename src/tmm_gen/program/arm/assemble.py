@@ -254,7 +254,12 @@ class _Assembly:
         """Let the first step be predicted by the acceleration at the start."""
         layout = self.layout
         kept: list[Statement] = []
-        for stages, history in ((layout.hub_stages, layout.hub), (layout.stages, layout.state)):
+        of_base = [(layout.floating_stages[axis], history) for axis, history in layout.floating.items()]
+        for stages, history in (
+            (layout.hub_stages, layout.hub),
+            *of_base,
+            (layout.stages, layout.state),
+        ):
             if not stages:
                 continue
             kept += first_stages(stages, history[Past("a", 0)])

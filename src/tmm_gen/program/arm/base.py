@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.derive.station.frame import RESIDUAL, UNKNOWN, Frame, change, force, impedance
+from tmm_gen.derive.station.frame import RESIDUAL, UNKNOWN, Frame, change, force, impedance, lacking
 from tmm_gen.derive.station.lets import Coordinate, Let, Line, Pivot, Update, composed
 from tmm_gen.derive.station.station import inward
 from tmm_gen.program.variables import Ref, local
@@ -108,12 +108,17 @@ def floating_base(
         into.append(Let(symbol, value, doc))
         return symbol
 
-    def entry(into: list[Line], symbol: sp.Symbol) -> sp.Expr:
+    def entry(symbol: sp.Symbol) -> sp.Expr:
         value = left.get(symbol, symbol).subs(nothing)
-        return let(into, f"whole_{symbol.name}", value, "of the arm with its base")
+        return let(factors, f"whole_{symbol.name}", value, "of the arm with its base")
 
-    s = {(a, b): entry(factors, impedance(a, b)) for a in c for b in c}
-    e = {a: entry(forces, force(a)) for a in c}
+    def bias(a: Coordinate) -> sp.Expr:
+        lacks = sp.Integer(frame.sign) * lacking(a) if frame.residual else sp.Integer(0)
+        value = left.get(force(a), force(a)).subs(nothing) - lacks
+        return let(forces, f"whole_{force(a).name}", value, "of the arm with its base")
+
+    s = {(a, b): entry(impedance(a, b)) for a in c for b in c}
+    e = {a: bias(a) for a in c}
     for index, a in enumerate(c):
         factors.append(Pivot(s[a, a]))
         freed = f"where nothing holds it along {a.name}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from tmm_gen.derive.integrators.declaration import KINDS, Integrator, Past, Scheme
 from tmm_gen.derive.integrators.history import history
@@ -34,6 +34,8 @@ class Layout:
     stages, hub_stages : tuple of Variable
         Accelerations at the stages of the last step, of the stations and of the base, where the next is predicted by
         them. A stage at the end of the step has those of the history.
+    floating_stages : dict from str to tuple of Variable
+        The same of the base's place by coordinate, where it floats.
     """
 
     row: Row
@@ -50,6 +52,7 @@ class Layout:
     given: tuple[Variable, ...]
     stages: tuple[Variable, ...] = ()
     hub_stages: tuple[Variable, ...] = ()
+    floating_stages: dict[str, tuple[Variable, ...]] = field(default_factory=dict)
 
     @property
     def stations(self) -> int:
@@ -62,7 +65,8 @@ class Layout:
         places = (v for kept in (*self.floating.values(), *self.places.values()) for v in kept.values())
         counted = (self.dissipated,) if self.dissipated else ()
         moving = (*self.hub.values(), *self.state.values(), *self.hub_stages, *self.stages)
-        return (*dict.fromkeys(moving), *places, *self.held.values(), *counted)
+        floating = (v for kept in self.floating_stages.values() for v in kept)
+        return (*dict.fromkeys((*moving, *places, *floating)), *self.held.values(), *counted)
 
 
 def layout_of(row: Row, integrator: Integrator, step: float, unknown: Unknown, *, places: bool) -> Layout:
@@ -89,6 +93,7 @@ def layout_of(row: Row, integrator: Integrator, step: float, unknown: Unknown, *
         if row.boundary != "held"
         else {}
     )
+    floating = {axis: _floating(axis, integrator) for axis in carried} if row.floats else {}
     return Layout(
         row=row,
         step=Variable("step", Role.STEP, doc="time step", unit="s", default=step),
@@ -96,7 +101,7 @@ def layout_of(row: Row, integrator: Integrator, step: float, unknown: Unknown, *
         state=state,
         hub=hub,
         places={axis: {p: _place(axis, p, n) for p in ordered} for axis in carried} if places else {},
-        floating={axis: _floating(axis, integrator) for axis in carried} if row.floats else {},
+        floating=floating,
         held={name: Variable(s.name, Role.STATE, doc=s.doc, unit=s.unit) for name, s in row.held.items()},
         dissipated=Variable("dissipated", Role.STATE, doc="energy turned to heat since the start", unit="J")
         if row.counts_heat
@@ -112,16 +117,19 @@ def layout_of(row: Row, integrator: Integrator, step: float, unknown: Unknown, *
             Variable("initial_angle", Role.GIVEN, n, "angles to start from", "rad", row.angles),
             Variable("initial_rate", Role.GIVEN, n, "rates to start from", "rad/s", row.rates),
         ),
-        stages=_stages(row, integrator.main, state, ""),
-        hub_stages=_stages(row, integrator.main, hub, "hub_") if row.boundary == "free" else (),
+        stages=_stages(row, integrator.main, state, "of each link, base to tip"),
+        hub_stages=_stages(row, integrator.main, hub, "of the hub") if row.boundary == "free" else (),
+        floating_stages={
+            axis: _stages(row, integrator.main, kept, f"of the base along {axis}")
+            for axis, kept in floating.items()
+        },
     )
 
 
-def _stages(row: Row, scheme: Scheme, history: dict[Past, Variable], prefix: str) -> tuple[Variable, ...]:
+def _stages(row: Row, scheme: Scheme, history: dict[Past, Variable], of: str) -> tuple[Variable, ...]:
     """Return where a coupled scheme keeps the accelerations of its stages for the next step's prediction."""
     if row.about != "prediction":
         return ()
-    of = "of the hub" if prefix else "of each link, base to tip"
     return stage_accelerations(scheme, history[Past("a", 0)], f"acceleration {of}")
 
 

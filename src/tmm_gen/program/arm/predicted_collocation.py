@@ -14,14 +14,16 @@ from functools import cached_property
 from tmm_gen.derive.integrators.declaration import KINDS, Kind
 from tmm_gen.derive.station.frame import Frame
 from tmm_gen.program.arm.at_places import BASE, hub_unknown, solved_variable
+from tmm_gen.program.arm.base import base_acceleration, base_change
 from tmm_gen.program.arm.collocation import CollocationStep
 from tmm_gen.program.arm.collocation_walks import (
     AGAIN,
-    LEFT_AT_HUB,
     MendingAgain,
     MendingWalks,
     ResidualWalks,
+    left_at_base,
     left_over,
+    over_on_shaft,
 )
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import Moving, motion_variable
@@ -55,34 +57,34 @@ class PredictedCollocationStep(CollocationStep):
         return tuple(s for s in found if s.statements)
 
     def _judged(self) -> Section:
-        return self.coupled.judged(self._everywhere(self.coupled.turned))
+        return self.coupled.judged(self._turning(self.coupled.turned))
 
     def _iterations(self, count: int) -> list[Section]:
         """Return so many iterations: the first one sweeps, and leaves its factors to the others."""
         n = self.layout.stations
         arrays = [self._at_stages(kind) for kind in KINDS]
         seeds = self.coupled.inputs_at_stages(self.layout.inputs, self.seen)
-        residuals = self._residual_walks().sections()
-        over = SideBySide(self.coupled.stages, seeds, arrays).sections(residuals)
-        at_stages = [lane.ref(left_over(n).at())[0] for lane in self.coupled.stages]
-        of_hub = [lane.ref(LEFT_AT_HUB)[0] for lane in self.coupled.stages]
-        mend = {
-            **self.seeds(),
-            left_over(n).at(): self.coupled.combined(at_stages),
-            LEFT_AT_HUB: self.coupled.combined(of_hub),
-        }
+        residuals, later_residuals = (self._residual_walks(again=again).sections() for again in (False, True))
+        stages = SideBySide(self.coupled.stages, seeds, [*arrays, *self._of_base])
+        over, over_again = stages.sections(residuals), stages.sections(later_residuals)
+        left = [left_over(n).at(), *map(left_at_base, self.layout.row.coordinates)]
+        mend = {**self.seeds(), **{ref: self.coupled.combined(self.coupled.each(ref)) for ref in left}}
         walks = self._mending_walks(again=count > 1)
         again = MendingAgain(walks, walks.motion) if count > 1 else None
         mending = walks.sections(again.plain if again else tuple)
         shared = shared_arrays(residuals, mending)
         taken = taken_over(mending, shared, lambda ref: self._at_slopes(ref, shared))
-        swept = SideBySide(self.coupled.systems, mend).sections(taken)
+        swept = SideBySide(self.coupled.systems, mend, [over_on_shaft(n)]).sections(taken)
         later = [s for s in swept if s.title.startswith(AGAIN)]
-        moving = [*self._everywhere(self._motion), *self._base_motion()]
+        moving = [*self._turning(self._motion), *self._base_motion()]
         improved = self._everywhere(self.coupled.improved)
-        begun = [Section("motion at the stages", tuple(moving)), *over]
+        moved = Section("motion at the stages", tuple(moving))
+        begun = [moved, *over, *self._over_on_shafts()]
         ended = Section("improved accelerations of the stages", tuple(improved))
-        rounds = [[*swept[: len(swept) - len(later)], ended], *[[*begun, *later, ended]] * (count - 1)]
+        rounds = [
+            [*swept[: len(swept) - len(later)], ended],
+            *[[moved, *over_again, *later, ended]] * (count - 1),
+        ]
         if count == 1:
             return [*begun, *self.split(rounds[0])]
         titled = [
@@ -91,6 +93,17 @@ class PredictedCollocationStep(CollocationStep):
             for s in sections
         ]
         return [*(replace(s, title=f"iteration 1: {s.title}") for s in begun), *self.split(titled)]
+
+    def _over_on_shafts(self) -> list[Section]:
+        """Put together for each system what is over of the torques on shafts."""
+        gap = over_on_shaft(self.layout.stations).at()
+        body = tuple(self.coupled.left_over(gap, gap))
+        loops = [Loop(Order.OUTWARD, k + 1, k + 2, body) for k in sorted(self.layout.row.shafts)]
+        return (
+            [Section("what is over on shafts, in the system of each eigenvalue", tuple(loops))]
+            if loops
+            else []
+        )
 
     @cached_property
     def _slopes(self) -> int:
@@ -107,7 +120,7 @@ class PredictedCollocationStep(CollocationStep):
         for given in self.layout.inputs:
             if ref == self.seen[given.name]:
                 return given.entry(self._slopes)
-        moving = {self._at_stages(kind) for kind in KINDS}
+        moving = {*(self._at_stages(kind) for kind in KINDS), *self._of_base}
         if ref.variable in shared or ref.variable in moving:
             return Ref(self.coupled.stages[self._slopes].of(ref.variable), ref.offset, ref.entry)
         return ref
@@ -115,7 +128,11 @@ class PredictedCollocationStep(CollocationStep):
     # -- what moves ----------------------------------------------------------------------------------------------
 
     def _everywhere(self, write: Callable[[Place], list[Assign]]) -> list[Statement]:
-        """Write assignments for the hub, where it moves freely, and in a loop over all stations."""
+        """Write assignments for the base, where it moves freely, and in a loop over all stations."""
+        return [*(s for place in self._places for s in write(place)), *self._turning(write)]
+
+    def _turning(self, write: Callable[[Place], list[Assign]]) -> list[Statement]:
+        """Write them for all that turns: the hub, where it moves freely, and the stations."""
         layout, n = self.layout, self.layout.stations
         found: list[Statement] = []
         if layout.row.boundary == "free":
@@ -124,6 +141,27 @@ class PredictedCollocationStep(CollocationStep):
         trial = trial_acceleration("each link", n)
         body = write(Place(layout.state, layout.stages, trial, solved_variable(n).at()))
         return [*found, Loop(Order.OUTWARD, 0, n, tuple(body))]
+
+    @property
+    def _places(self) -> list[Place]:
+        """Places of a base that floats. Nothing asks where it is at the stages, nor how fast it moves there."""
+        layout = self.layout
+        return [
+            Place(
+                layout.floating[c.name],
+                layout.floating_stages[c.name],
+                base_acceleration(c),
+                base_change(c),
+                f"base_{c.name}_",
+            )
+            for c in layout.row.coordinates
+            if c.name in layout.floating
+        ]
+
+    @property
+    def _of_base(self) -> list[Variable]:
+        """Accelerations of a base that floats, which are others at each stage."""
+        return [place.trial.variable for place in self._places]
 
     def _motion(self, place: Place) -> list[Assign]:
         """Write motion at the stages by the accelerations so far."""
@@ -159,12 +197,13 @@ class PredictedCollocationStep(CollocationStep):
 
     # -- walks ---------------------------------------------------------------------------------------------------
 
-    def _residual_walks(self) -> ResidualWalks:
+    def _residual_walks(self, *, again: bool) -> ResidualWalks:
         row = self.layout.row
         frame = Frame(row.coordinates, (ZERO, ZERO, ZERO), frozenset(), row.about, row.sign)
         motion: dict[str, Moving] = {kind: self._at_stages(kind) for kind in KINDS}
         loads = Loads(self.layout, inputs=self.seen)
-        return ResidualWalks(self.layout, self.prepared, frame, {}, motion, loads, self.stage_of())
+        stage = self.stage_of()
+        return ResidualWalks(self.layout, self.prepared, frame, {}, motion, loads, stage, again=again)
 
     def _mending_walks(self, *, again: bool) -> MendingWalks:
         frame = replace(self.frame(), predicted=True, residual=True, corrected=again)

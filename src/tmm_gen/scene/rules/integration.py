@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.integrator import INTEGRATOR_NAMES, METHODS, Method, method_named
-from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.table import closest, is_finite_number
 
@@ -118,13 +117,8 @@ def _not_carried(document: Document) -> Iterator[str]:
     if document.model.kind == "spatial":
         if document.model.linearisation == "newton":
             yield 'goes with linearisation = "inertial" in space, not with "newton"'
-    elif document.model.kind == "planar":
-        if document.base.kind == "free":
-            yield "does not go with a base that floats yet"
-        if isinstance(document, PartsDocument) and any(m.stiffness is not None for m in document.motor):
-            yield "does not go with elastic gears yet"
-        if document.model.linearisation != "newton":
-            yield f'does not go with linearisation = "{document.model.linearisation}"'
+    elif document.model.kind == "planar" and document.model.linearisation != "newton":
+        yield f'does not go with linearisation = "{document.model.linearisation}"'
 
 
 def _explicit_method(document: Document) -> Method | None:
