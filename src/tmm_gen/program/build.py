@@ -94,6 +94,7 @@ def _in_space(scene: Scene, arm: SpatialArm, chosen: Integrator, *, auto: bool) 
         exact=exact,
         sensitivities=derived,
         vectors=scene.emit.favour == "speed",
+        single=scene.emit.real == "float32",
         facts=tuple(facts.items()),
     )
     return build_in_space(arm, scene.name, scene.title, chosen, choices)

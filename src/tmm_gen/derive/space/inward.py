@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from tmm_gen.derive.space.congruence import congruent, entry_name, turned
 from tmm_gen.derive.space.declaration import ACCEL, ALPHA, AXES
 from tmm_gen.derive.space.equations import PassageEquations, body_equations
 from tmm_gen.derive.space.outward import OWN_FORCE, OWN_MOMENT, Outward, body_of, relative_acceleration
@@ -31,10 +32,15 @@ BIAS = sp.Matrix(
 CHANGE = sp.Matrix(
     [sp.Symbol(f"change_{what}_{axis}", real=True) for what in ("accel", "alpha") for axis in AXES]
 )
-AXIS_INERTIA = sp.Matrix(
-    [sp.Symbol(f"axis_{what}_{axis}", real=True) for what in ("coupling", "inertia") for axis in AXES]
+RELIEF = sp.Symbol("relief", real=True)
+"""What the joint does where its section goes on as it did."""
+YIELD = sp.Matrix(
+    [sp.Symbol(f"yield_{what}_{axis}", real=True) for what in ("accel", "alpha") for axis in AXES]
 )
-"""Moment about the joint's axis per acceleration and angular acceleration of its section, before it gives way."""
+"""What of an acceleration and an angular acceleration of its section the joint takes back, and what of a torque that it
+lacks goes into force and moment there: inertias are symmetric."""
+SHARE = sp.Symbol("law_share", real=True)
+"""Of a torque that the joint lacks, what its own law takes."""
 
 
 def _articulated() -> sp.Matrix:
@@ -64,6 +70,8 @@ class Inertial:
         Acceleration per unknown.
     acting : bool
         Whether bodies take forces; otherwise joints' torques alone act.
+    products : bool
+        Whether joints turn inertias by plain products; see :func:`~tmm_gen.derive.space.congruence.turned`.
 
     Attributes
     ----------
@@ -79,9 +87,12 @@ class Inertial:
     again: tuple[Line, ...]
     back: tuple[Line, ...]
 
-    def __init__(self, out: Outward, gain: sp.Expr = GAINS["a"], *, acting: bool = True) -> None:
-        self._out, self._gain, self._acting = out, gain, acting
+    def __init__(
+        self, out: Outward, gain: sp.Expr = GAINS["a"], *, acting: bool = True, products: bool = False
+    ) -> None:
+        self._out, self._gain, self._acting, self._products = out, gain, acting, products
         self._axis = 3 + out.pattern.axis
+        self._yield = sp.zeros(6, 1)
         if out.pattern.given:
             self.inward = self.again = ()
             self.back = unchanged(CHANGE)
@@ -93,52 +104,47 @@ class Inertial:
     def _inward(self) -> tuple[Line, ...]:
         sheet, axis, gain = Sheet(), self._axis, self._gain
         own = self._own()
-        names = [_names("joined", i, j) for i in range(6) for j in range(6)]
+        names = [entry_name("joined", i, j) for i in range(6) for j in range(6)]
         inertia = sp.zeros(6, 6)
         for i in range(6):
             for j in range(i, 6):
                 value = own[i, j] + (0 if self._out.pattern.tip else ARTICULATED[i, j])
                 inertia[i, j] = inertia[j, i] = sheet.named(names[6 * i + j], value)
-        about_axis = inertia[axis, :]
-        if self._out.pattern.unyielding:  # what it stands on rests
-            about_axis = sp.Matrix([[v if k == axis else 0 for k, v in enumerate(about_axis)]])
+        about = inertia[axis, :]
+        pivot = gain * about[axis] + IMPEDANCE
         lines: list[Line] = [
             *sheet.lets,
-            *(
-                Let(s, v, "moment about the joint's axis")
-                for s, v in zip(AXIS_INERTIA, about_axis, strict=True)
-                if v != 0
-            ),
+            Pivot(pivot),
+            Let(ADMITTANCE, 1 / pivot, "motion of the joint per torque in it"),
         ]
-        self._about = sp.Matrix([s if v != 0 else 0 for s, v in zip(AXIS_INERTIA, about_axis, strict=True)])
-        about = self._about
-        pivot = gain * about[axis] + IMPEDANCE
-        lines += [Pivot(pivot), Let(ADMITTANCE, 1 / pivot, "motion of the joint per torque in it")]
         bias, biased = self._balanced()
         lines += biased
         if self._out.pattern.unyielding:
             return tuple(lines)
         sheet = Sheet()
-        taken = sheet.named("giving", gain * ADMITTANCE, "what the joint gives way by")
-        share = sheet.named("share", IMPEDANCE * ADMITTANCE, "of what the joint does not give way by")
-        given = [
-            sheet.named(f"given_{'force' if i < 3 else 'moment'}_{AXES[i % 3]}", taken * about[i])
-            for i in range(6)
-            if i != axis
+        self._yield = sp.Matrix([symbol if v != 0 else 0 for symbol, v in zip(YIELD, about, strict=True)])
+        lines += [
+            Let(symbol, ADMITTANCE * v, "of an acceleration of its section that the joint takes back")
+            for symbol, v in zip(YIELD, about, strict=True)
+            if v != 0
         ]
-        given.insert(axis, sp.Integer(0))
+        lines.append(Let(SHARE, IMPEDANCE * ADMITTANCE, "of what the joint does not give way by"))
+        scaled = [sheet.named(f"scaled_{name}", gain * v) for name, v in zip(YIELD, about, strict=True)]
         freed = sp.zeros(6, 6)
         for i in range(6):
             for j in range(i, 6):
                 # the joint's own law says what moment it passes on: no small difference of large numbers
                 own_law = axis in (i, j)
-                value = share * about[i + j - axis] if own_law else inertia[i, j] - given[i] * about[j]
-                freed[i, j] = freed[j, i] = sheet.named(_names("freed", i, j), value)
+                value = SHARE * about[i + j - axis] if own_law else inertia[i, j] - self._yield[i] * scaled[j]
+                freed[i, j] = freed[j, i] = sheet.named(entry_name("freed", i, j), value)
         for crossing in reversed(self._out.crossings):
             through = through_accelerations(crossing.equations)
             if crossing.equations.forces != through.T:
                 raise AssertionError("forces do not pass as power does")
-            freed = _congruent(sheet, freed, through)
+            if crossing is self._out.crossings[-1] and not self._products:  # the joint itself
+                freed = turned(sheet, freed, crossing.equations.turn, axis - 3)
+            else:
+                freed = congruent(sheet, freed, through)
         lines += sheet.lets
         update = {ARTICULATED[i, j]: freed[i, j] for i in range(6) for j in range(i, 6)}
         bias, passed = self._passed(bias)
@@ -155,18 +161,18 @@ class Inertial:
         sheet = Sheet()
         bias = acting_forces(sheet, self._out, own=self._acting)
         imbalance = Let(IMBALANCE, bias[self._axis] + TORQUE, "torque that the joint lacks", "N m")
-        return bias, [*sheet.lets, imbalance]
+        relief = Let(RELIEF, ADMITTANCE * IMBALANCE, "what the joint does by itself", "rad/s^2")
+        return bias, [*sheet.lets, imbalance, relief]
 
     def _passed(self, bias: sp.Matrix) -> tuple[dict[sp.Symbol, sp.Expr], list[Line]]:
         """Return the forces at the station's inner side."""
         sheet, axis = Sheet(), self._axis
-        relief = sheet.named("relief", ADMITTANCE * IMBALANCE)
-        moved = sheet.named("moved", self._gain * relief)
+        moving = sheet.named("moving", self._gain * IMBALANCE)
         freed = sp.Matrix(
             [
                 sheet.named(
                     f"left_{'force' if i < 3 else 'moment'}_{AXES[i % 3]}",
-                    IMPEDANCE * relief - TORQUE if i == axis else bias[i] - moved * self._about[i],
+                    SHARE * IMBALANCE - TORQUE if i == axis else bias[i] - moving * self._yield[i],
                 )
                 for i in range(6)
             ]
@@ -195,8 +201,7 @@ class Inertial:
                     for i in range(6)
                 ]
             )
-        lacking = IMBALANCE + (self._about.T * change)[0]
-        found = Let(OWN, -ADMITTANCE * lacking, "what the joint does")
+        found = Let(OWN, -RELIEF - (self._yield.T * change)[0], "what the joint does")
         change[self._axis] += self._gain * OWN
         update = {s: v for s, v in zip(CHANGE, change, strict=True) if s != v}
         return (*sheet.lets, found, Update(update))
@@ -215,18 +220,6 @@ def through_accelerations(equations: PassageEquations) -> sp.Matrix:
     return sp.Matrix.vstack(
         sp.Matrix.hstack(equations.turn, swing), sp.Matrix.hstack(sp.zeros(3, 3), carried)
     )
-
-
-def _congruent(sheet: Sheet, inertia: sp.Matrix, through: sp.Matrix) -> sp.Matrix:
-    """Return ``through^T inertia through``, named entry by entry."""
-    half = inertia * through
-    named = sp.Matrix(6, 6, lambda i, j: sheet.named(_names("half", i, j), half[i, j]))
-    whole = through.T * named
-    found = sp.zeros(6, 6)
-    for i in range(6):
-        for j in range(i, 6):
-            found[i, j] = found[j, i] = sheet.named(_names("passed", i, j), whole[i, j])
-    return found
 
 
 def acting_forces(sheet: Sheet, out: Outward, *, own: bool = True) -> sp.Matrix:
@@ -248,13 +241,3 @@ def named_forces(sheet: Sheet, forces: sp.Matrix, stage: str = "passed") -> sp.M
     """Return a force and a moment, (6,), by names."""
     names = [f"{stage}_{what}_{axis}" for what in ("force", "moment") for axis in AXES]
     return sp.Matrix([sheet.named(name, value) for name, value in zip(names, forces, strict=True)])
-
-
-def _names(stage: str, i: int, j: int) -> str:
-    kind = {
-        (True, True): "mass",
-        (True, False): "coupling",
-        (False, True): "lever",
-        (False, False): "inertia",
-    }
-    return f"{stage}_{kind[i < 3, j < 3]}_{AXES[i % 3]}{AXES[j % 3]}"

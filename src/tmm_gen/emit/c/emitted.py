@@ -55,10 +55,12 @@ class Emitted:
             structs = {name: struct for name, struct in structs.items() if name not in ("params", "model")}
         sizes = ", ".join(f"{name} {struct.size(real)}" for name, struct in structs.items())
         number = f"sums of two of type {real.c}" if real.pair else real.c
-        apart = scene.emit.favour == "speed" and scene.spatial is None
-        lowered = lower(program, apart=apart)
+        fast, in_space = scene.emit.favour == "speed", scene.spatial is not None
+        # arms side by side have their own loops, which long bodies would not make faster
+        together = fast and in_space and scene.emit.batch is None
+        lowered = lower(program, apart=fast and not in_space, together=together)
         counted, facts = program, []
-        if apart:  # there, a few operations more make chains shorter
+        if fast and not in_space:  # there, a few operations more make chains shorter
             counted = replace(program, startup=lowered.startup, main=lowered.main)
         if (vectors := vectors_of(lowered, scene)) is not None:
             counted = replace(program, main=vectors.step)

@@ -11,6 +11,7 @@ import sympy as sp
 from tmm_gen.emit.c.early_first import early_first
 from tmm_gen.emit.c.interleave import interleave
 from tmm_gen.emit.c.one_ahead import one_ahead
+from tmm_gen.emit.c.split_at_runs import split_at_runs
 from tmm_gen.program.passes.contract import contract
 from tmm_gen.program.passes.dependence import read_before_written
 from tmm_gen.program.passes.fuse import fuse
@@ -30,8 +31,10 @@ from tmm_gen.program.variables import Variable
 
 
 @lru_cache(maxsize=8)
-def lower(program: Program, *, apart: bool = False) -> Program:
-    """Return the program in the form in which C is written, the last few as before; values stay the same bit for bit.
+def lower(program: Program, *, apart: bool = False, together: bool = False) -> Program:
+    """Return the program in the form in which C is written, the last few as before.
+
+    Values stay the same bit for bit where a step is not to be fast.
 
     Parameters
     ----------
@@ -39,6 +42,9 @@ def lower(program: Program, *, apart: bool = False) -> Program:
         As built.
     apart : bool
         Whether the steps' loops over independent stations stay apart from recursions.
+    together : bool
+        Whether they go into the steps' recursions instead, run by run, so that walks in one direction become one.
+        Either way recursions add first what is known first, which changes last digits.
 
     Raises
     ------
@@ -49,8 +55,8 @@ def lower(program: Program, *, apart: bool = False) -> Program:
         program,
         prepare=_lowered(program.prepare),
         initialise=_lowered(_defining_all_state(program)),
-        startup=tuple(_step(routine, apart) for routine in program.startup),
-        main=_step(program.main, apart),
+        startup=tuple(_step(routine, apart, together) for routine in program.startup),
+        main=_step(program.main, apart, together),
         output=_lowered(program.output),
         sensitivities=_lowered_sensitivities(program.sensitivities),
         vectors=_lowered_vectors(program.vectors),
@@ -64,11 +70,15 @@ def _lowered_sensitivities(found: Sensitivities | None) -> Sensitivities | None:
 
 
 def _lowered_vectors(found: Vectors | None) -> Vectors | None:
-    return None if found is None else replace(found, step=_step(found.step, apart=False))
+    return None if found is None else replace(found, step=_step(found.step))
 
 
-def _step(routine: Routine, apart: bool) -> Routine:
-    return early_first(one_ahead(_lowered(routine, apart=True))) if apart else interleave(_lowered(routine))
+def _step(routine: Routine, apart: bool = False, together: bool = False) -> Routine:
+    if apart:
+        return early_first(one_ahead(_lowered(routine, apart=True)))
+    if together:
+        return early_first(interleave(_lowered(split_at_runs(routine))))
+    return interleave(_lowered(routine))
 
 
 def _lowered(routine: Routine, *, apart: bool = False) -> Routine:

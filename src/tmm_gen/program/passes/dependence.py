@@ -45,6 +45,7 @@ class Access:
             and self.variable == other.variable
             and self.first <= other.last
             and other.first <= self.last
+            and not (self.every == other.every and (self.first - other.first) % self.every)
         )
 
 

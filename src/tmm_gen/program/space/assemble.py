@@ -49,6 +49,8 @@ class SpaceChoices:
         Whether the step's tangent is wanted; not of one that corrects until that changes next to nothing.
     vectors : bool
         Whether the step is wanted in vectors too, where the integrator's stages are solved at once.
+    single : bool
+        Whether the arm's numbers are of single precision: turns then spare no operations that cost digits.
     facts : tuple of (str, str)
         For headers.
     """
@@ -60,6 +62,7 @@ class SpaceChoices:
     exact: bool = False
     sensitivities: bool = False
     vectors: bool = False
+    single: bool = False
     facts: tuple[tuple[str, str], ...] = ()
 
 
@@ -97,7 +100,8 @@ def build_in_space(
     choices : SpaceChoices
         How it is solved.
     """
-    return _Assembly(layout_of(arm, name, title, integrator, choices.step), integrator, choices).program()
+    layout = replace(layout_of(arm, name, title, integrator, choices.step), single=choices.single)
+    return _Assembly(layout, integrator, choices).program()
 
 
 def _without_zeros(program: Program) -> Program:

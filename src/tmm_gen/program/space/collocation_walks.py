@@ -19,9 +19,9 @@ from tmm_gen.program.statements import Assign, Loop, Order, Section
 
 
 @lru_cache(maxsize=256)
-def mending(pattern: Pattern) -> Inertial:
+def mending(pattern: Pattern, products: bool) -> Inertial:
     """Return the way in and back over stations of a pattern, where torques of joints alone act."""
-    return Inertial(outward(pattern, True), sp.S.One, acting=False)
+    return Inertial(outward(pattern, True), sp.S.One, acting=False, products=products)
 
 
 class ResidualWalks(SpaceWalks):
@@ -55,7 +55,7 @@ class MendingWalks(SpaceWalks):
 
     def _eliminated(self, pattern: Pattern, still: bool) -> Inertial:
         del still
-        return mending(pattern)
+        return mending(pattern, self.layout.single)
 
     def _answered(self) -> Sequence[Line]:
         # in its own axes: each stage has others

@@ -43,6 +43,8 @@ class SpaceLayout:
         Of a base that floats.
     stages : tuple of Variable
         Accelerations at the stages of the last step, where the next is predicted by them.
+    single : bool
+        Whether the arm's numbers are of single precision.
     """
 
     name: str
@@ -57,6 +59,7 @@ class SpaceLayout:
     given: tuple[Variable, ...]
     base: BaseLayout | None = None
     stages: tuple[Variable, ...] = ()
+    single: bool = False
 
     @property
     def arm(self) -> SpatialArm:

@@ -19,7 +19,16 @@ from tmm_gen.derive.space.declaration import (
     OMEGA,
     RATE,
 )
-from tmm_gen.derive.space.inward import ADMITTANCE, AXIS_INERTIA, IMBALANCE, IMPEDANCE, OWN, TORQUE
+from tmm_gen.derive.space.inward import (
+    ADMITTANCE,
+    IMBALANCE,
+    IMPEDANCE,
+    OWN,
+    RELIEF,
+    SHARE,
+    TORQUE,
+    YIELD,
+)
 from tmm_gen.derive.space.newton import ABOUT_AXIS, PUSH
 from tmm_gen.derive.space.newton import CHANGE as ALL_CHANGES
 from tmm_gen.derive.space.outward import COSINE, OWN_FORCE, OWN_MOMENT, SINE
@@ -38,10 +47,12 @@ _KEPT: dict[sp.Symbol, tuple[str, str]] = {
     COSINE: ("cosine of each joint's angle", "1"),
     **dict.fromkeys(OWN_FORCE, ("force that each body takes", "N")),
     **dict.fromkeys(OWN_MOMENT, ("moment that each body takes", "N m")),
-    **dict.fromkeys(AXIS_INERTIA[:3, :], ("moment about each joint's axis per acceleration", "kg m")),
+    **dict.fromkeys(YIELD[:3, :], ("of an acceleration of its section, what each joint takes back", "1/m")),
     **dict.fromkeys(
-        AXIS_INERTIA[3:, :], ("moment about each joint's axis per angular acceleration", "kg m^2")
+        YIELD[3:, :], ("of an angular acceleration of its section, what each joint takes back", "1")
     ),
+    SHARE: ("of a torque that each joint lacks, what its own law takes", "1"),
+    RELIEF: ("what each joint does by itself", "rad/s^2"),
     ADMITTANCE: ("motion of each joint per torque in it", "1/(kg m^2)"),
     IMBALANCE: ("torque that each joint lacks", "N m"),
     IMPEDANCE: ("torque of each joint's spring, damper and rotor per unknown", "kg m^2"),

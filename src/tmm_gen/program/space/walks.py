@@ -38,9 +38,9 @@ def newton(pattern: Pattern, still: bool, gains: tuple[sp.Expr, ...]) -> Newton:
 
 
 @lru_cache(maxsize=512)
-def inertial(pattern: Pattern, still: bool, gain: sp.Expr) -> Inertial:
+def inertial(pattern: Pattern, still: bool, gain: sp.Expr, products: bool) -> Inertial:
     """Return the way in and back over stations of a pattern."""
-    return Inertial(outward(pattern, still), gain)
+    return Inertial(outward(pattern, still), gain, products=products)
 
 
 class SpaceWalks(OverStations):
@@ -139,7 +139,7 @@ class SpaceWalks(OverStations):
 
     def _eliminated(self, pattern: Pattern, still: bool) -> Inertial:
         """Return how a station's joint is eliminated."""
-        return inertial(pattern, still, self._gain)
+        return inertial(pattern, still, self._gain, self.layout.single)
 
     def _answered(self) -> Sequence[Line]:
         """Return what a base that floats does."""
