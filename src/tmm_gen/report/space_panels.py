@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
+from tmm_gen.report.space_labels import PANEL
 from tmm_gen.report.space_motion import SpaceMotion
 from tmm_gen.report.space_picture import set_out
 from tmm_gen.style import figure, style
@@ -56,13 +57,10 @@ class SpacePanels:
 
     def set_out(self, panel: Any, title: str, points: NDArray[np.float64]) -> float:
         """Set out a panel in which all points are seen; return where the ground is along the upward axis."""
-        ground = set_out(panel, self._motion, points, _NARROWEST)
+        ground = set_out(panel, self._motion, points, _NARROWEST, PANEL)
         panel.set_title(title, fontsize=9.5, fontweight="normal")
         for name, axis in zip("xyz", (panel.xaxis, panel.yaxis, panel.zaxis), strict=True):
             axis.set_label_text(name)
-            axis.labelpad = -6.0
-            axis.get_major_locator().set_params(nbins=3)
-            axis.set_tick_params(labelsize=6.5, pad=-2.0)
         return ground
 
     @property

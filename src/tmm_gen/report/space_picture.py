@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.report.animate import SHAPES, frame_instants
 from tmm_gen.report.film import film
+from tmm_gen.report.space_labels import AZIMUTH, ELEVATION, STILL, Lettering, letter
 from tmm_gen.report.space_motion import SpaceMotion, space_motion
 from tmm_gen.simulate.simulation import Simulation
 from tmm_gen.style import FAINT, INK, PALETTE, figure, style
@@ -23,9 +24,6 @@ _LINE = 56
 """Letters that fit above a GIF."""
 
 _SHADOW = "#d6d9df"
-
-_ELEVATION, _AZIMUTH = 24.0, -58.0
-"""Of the eye, degrees: from above, and neither along x nor along y."""
 
 
 def draw_arm(axes: Any, motion: SpaceMotion) -> None:
@@ -111,7 +109,9 @@ def space_gif(simulation: Simulation) -> bytes:
         return film(made, moving, draw, len(shown), "gif", simulation.scene.title)
 
 
-def set_out(axes: Any, motion: SpaceMotion, points: Array, narrowest: float = 0.3) -> float:
+def set_out(
+    axes: Any, motion: SpaceMotion, points: Array, narrowest: float = 0.3, lettering: Lettering = STILL
+) -> float:
     """Set out a field in true proportion with the base in it; return where the ground is along the upward axis.
 
     Parameters
@@ -124,6 +124,8 @@ def set_out(axes: Any, motion: SpaceMotion, points: Array, narrowest: float = 0.
         All that is to be seen, m.
     narrowest : float
         Least side of the field, as a share of the arm's reach.
+    lettering : Lettering
+        Of names and numbers along its sides.
     """
     margin, least = 0.05 * motion.reach, narrowest * motion.reach
     low, high = points.min(axis=(0, 1)) - margin, points.max(axis=(0, 1)) + margin
@@ -134,17 +136,15 @@ def set_out(axes: Any, motion: SpaceMotion, points: Array, narrowest: float = 0.
     ground = sign * (lowest - margin if lowest < 0.0 else 0.0)
     (low if sign > 0 else high)[upward] = ground
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.view_init(sign * _ELEVATION, _AZIMUTH, 0.0 if sign > 0 else 180.0, "xyz"[upward])
-    axes.set_box_aspect(high - low)  # in the order that the view has made known
+    axes.view_init(sign * ELEVATION, AZIMUTH, 0.0 if sign > 0 else 180.0, "xyz"[upward])
+    axes.set_box_aspect(high - low, zoom=lettering.field)  # in the order that the view has made known
     longest = float(np.max(high - low))
     for name, axis, span in zip("xyz", (axes.xaxis, axes.yaxis, axes.zaxis), high - low, strict=True):
         axis.set_label_text(f"{name} (m)")
-        # a label stands off by a share of the other side of the ground
-        axis.labelpad = 4.0 * min(7.0, longest / float((high - low)[1 if name == "x" else 0]))
         axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
-        few = max(1, round(5.0 * float(span) / longest))  # labels of a narrow field would overlap
+        few = max(1, round(lettering.count * float(span) / longest))  # labels of a narrow field would overlap
         axis.get_major_locator().set_params(nbins=few, min_n_ticks=1)
-        axis.set_tick_params(labelsize=8.0)
+    letter(axes, upward, high - low, lettering)
     foot = 0.05 * motion.reach * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]])
     plate = np.zeros((5, 3))
     plate[:, [axis for axis in range(3) if axis != upward]] = foot
