@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,11 +13,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tmm_gen.native.timing import Cost
-from tmm_gen.scene import Scene
+from tmm_gen.scene import Scene, load_scene
 from tmm_gen.study.configuration import Configuration, Family, own
 from tmm_gen.study.excitation import Excitation
 from tmm_gen.study.explain import explained
 from tmm_gen.study.findings import findings, summary
+from tmm_gen.study.grid import Axes, families
 from tmm_gen.study.outcome import Outcome, Result
 from tmm_gen.study.point import Point
 from tmm_gen.study.report import _race
@@ -177,6 +179,30 @@ def test_one_step_is_no_curve(chain: Scene, chain_excitation: Excitation) -> Non
         "cheaper."
     )
     assert finding.factor(finding.ways[0]) is None
+
+
+@pytest.mark.parametrize("place", ["scenes/elbow.toml", "examples/space/yaw3.toml"])
+@pytest.mark.parametrize("named", ["newmark", "gauss3"])
+def test_integrators_that_sweep_otherwise_are_compared(
+    place: str, named: str, repository: Path, chain_excitation: Excitation
+) -> None:
+    """Each sweeps as often as suits it: once or twice in a plane, in space with as many corrections as it takes."""
+    scene = load_scene(repository / place).replace(**{"integrator.name": named, "model.iterations": "auto"})
+    two = families(scene, Axes(integrators=("newmark", "gauss3")))
+    assert two[0].iterations != two[1].iterations
+    points = [
+        Point(
+            Configuration(family, h), Result(Outcome.FINISHED, error=h**order, operations=9), Cost(90, 0, 3)
+        )
+        for family, order in zip(two, (1, 3), strict=True)
+        for h in (0.5, 0.25, 0.125)
+    ]
+    (finding,) = findings(Study(scene, chain_excitation, 1.0, tuple(points)), (0.02,))
+    text = finding.sentence()
+    assert "gauss3 is the cheapest, with steps of 0.27 s" in text
+    assert "Newmark's method does not get there within the grid" in text
+    (finding,) = findings(Study(scene, chain_excitation, 1.0, tuple(points)), (0.2,))
+    assert finding.baseline is not None
 
 
 @pytest.mark.parametrize("error", [1e-5, 0.9e-3, 1.1e-3, 0.5])

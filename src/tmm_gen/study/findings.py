@@ -11,8 +11,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from tmm_gen.study.chosen_steps import ChosenSteps
-from tmm_gen.study.configuration import Family, own
+from tmm_gen.study.configuration import Family
 from tmm_gen.study.excitation import unit
+from tmm_gen.study.grid import alike
 from tmm_gen.study.outcome import Outcome
 from tmm_gen.study.point import Point
 from tmm_gen.study.single_precision import single_precision
@@ -155,20 +156,20 @@ def _times(factor: float, saved: str, spent: str) -> str:
 
 
 def findings(study: Study, levels: Sequence[float] = LEVELS) -> tuple[Finding, ...]:
-    """Return who wins at some errors, among families with the scene's own links, linearisation and sweeps.
+    """Return who wins at some errors, among families that are the scene's own but for the integrator.
 
+    Each sweeps as often as the scene says, or as suits it.
     Judged by the time error alone: how the arm was cut into links is no concern of an integrator.
     """
-    mine = own(study.scene).family
-    alike = [
+    rivals = [
         (family, points)
         for family, points in by_family(study.points)
-        if replace(family, integrator=mine.integrator) == mine
+        if family == alike(study.scene, family.integrator)
     ]
-    tried = any(family.integrator == BASELINE for family, _ in alike)
+    tried = any(family.integrator == BASELINE for family, _ in rivals)
     found = []
     for level in levels:
-        ways = [way for family, points in alike if (way := _way(study, family, points, level)) is not None]
+        ways = [way for family, points in rivals if (way := _way(study, family, points, level)) is not None]
         if any(way.ns is None for way in ways):  # times of some beside operations of others would be no order
             ways = [replace(way, ns=None) for way in ways]
         found.append(Finding(level, tuple(sorted(ways, key=lambda way: way.cost)), tried))

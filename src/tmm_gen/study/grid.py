@@ -100,6 +100,12 @@ def families(scene: Scene, axes: Axes) -> tuple[Family, ...]:
     return tuple(dict.fromkeys(found))
 
 
+def alike(scene: Scene, integrator: str) -> Family:
+    """Return what is generated of a scene with another integrator; rounds suit it where no number is said."""
+    (found,) = families(scene, Axes(integrators=(integrator,)))
+    return found
+
+
 def _rounds_given(scene: Scene) -> bool:
     """Whether the scene says how often a stage sweeps, or is of a kind in which nothing is swept again."""
     if scene.spatial is None:
