@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from tmm_gen.cli import main
-from tmm_gen.closed_loop.tuning import TUNABLE
+from tmm_gen.closed_loop.tunables import TUNABLE
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.export.fmu.headers import fmi_headers
 from tmm_gen.extras import packages

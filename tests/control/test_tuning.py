@@ -11,10 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tmm_gen.closed_loop.knobs import Tunable, number, places_of, turned
 from tmm_gen.closed_loop.loop import Loop
 from tmm_gen.closed_loop.objective import AIMS, NOISES, objective, price
 from tmm_gen.closed_loop.pricing import Cost, OneByOne, side_by_side
-from tmm_gen.closed_loop.tuning import TUNABLE, Tunable, number, places_of, tune, turned
+from tmm_gen.closed_loop.tunables import TUNABLE
+from tmm_gen.closed_loop.tuning import tune
 from tmm_gen.control.bench import Bench
 from tmm_gen.scene import load_scene, parse_scene
 from tmm_gen.scene.problem import SceneError

@@ -105,9 +105,9 @@ def test_one_number_is_for_all() -> None:
         ("[control.bounds]", "delay = 1.0\n[control.bounds]", "control.weights.delay", "is not a key"),
         (
             "[control.bounds]",
-            "[control.sensors]\nstrain = 0.1\n[control.bounds]",
-            "control.sensors.strain",
-            "is read on arms on a hub only",
+            "[control.sensors]\nstrain = { hip = 0.1 }\n[control.bounds]",
+            "control.sensors.strain.hip",
+            "is not the name of a driven motor",
         ),
     ],
 )

@@ -29,7 +29,7 @@ _ALONG = (
 
 def list_all(json_mode: bool) -> None:
     """Print controllers, conditions, and what can be tuned."""
-    from tmm_gen.closed_loop.tuning import TUNABLE
+    from tmm_gen.closed_loop.tunables import titles
     from tmm_gen.control.condition import CONDITIONS
     from tmm_gen.control.controllers import CONTROLLERS
     from tmm_gen.onboard.emit import EMITTED
@@ -39,7 +39,7 @@ def list_all(json_mode: bool) -> None:
         for kind in CONTROLLERS
     ]
     rows += [{"what": "condition", "name": case.name, "title": case.title, "c": None} for case in CONDITIONS]
-    rows += [{"what": "tunable", "name": item.name, "title": item.title, "c": None} for item in TUNABLE]
+    rows += [{"what": "tunable", "name": name, "title": title, "c": None} for name, title in titles().items()]
     table(rows, ["what", "name", Column("title", ""), Column("c", "as C")], json_mode)
 
 

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from tmm_gen.cli.console import Advance
-    from tmm_gen.closed_loop.tuning import Tunable, Tuned
+    from tmm_gen.closed_loop.knobs import Tunable
+    from tmm_gen.closed_loop.tuning import Tuned
     from tmm_gen.control.bench import Bench
     from tmm_gen.scene import Scene
 
@@ -68,16 +69,17 @@ def tuned(
     from tmm_gen.closed_loop.chosen import chosen
     from tmm_gen.closed_loop.pricing import OneByOne, side_by_side
     from tmm_gen.closed_loop.search import require_cma
-    from tmm_gen.closed_loop.tuning import TUNABLE, tune
+    from tmm_gen.closed_loop.tunables import tunables_of
+    from tmm_gen.closed_loop.tuning import tune
     from tmm_gen.control.controllers import BY_NAME, require_solvers
 
-    if not bench.problem.motors.on_hub:
+    if bench.follows:
         raise UserError(
-            f"--tune: {file}: tunes arms on a hub only, and this one has motors by name. Change the numbers under "
-            "[control] and compare by `tmm-gen mpc`."
+            f"--tune: {file}: tunes for a reference that is reached once, and this arm follows control.trajectory. "
+            "Take the table out while you tune."
         )
-    known = {tunable.name: tunable for tunable in TUNABLE}
-    wanted = [*TUNABLE] if EVERYTHING in names else chosen("--tune", names, known)
+    known = {tunable.name: tunable for tunable in tunables_of(bench)}
+    wanted = [*known.values()] if EVERYTHING in names else chosen("--tune", names, known)
     require_cma()
     require_solvers(BY_NAME[name] for tunable in wanted for name in tunable.controllers)
     if out is not None:  # what cannot be written is better known before the search than after it
@@ -105,20 +107,20 @@ def _report(advance: Advance, title: str) -> Callable[[float], None]:
 
 def _text(file: Path, scene: Scene, tunables: Iterable[Tunable]) -> str:
     """Return the text of a scene's file with the numbers of another scene in place of those that are tuned."""
-    from tmm_gen.closed_loop.tuning import number
+    from tmm_gen.closed_loop.knobs import number
     from tmm_gen.scene.rewrite import rewritten
 
-    keys = dict.fromkeys(knob.key for tunable in tunables for knob in tunable.knobs)
+    keys = dict.fromkeys(key for tunable in tunables for key in tunable.keys)
     text = read_file(file).decode("utf-8-sig")
     return rewritten(text, str(file), scene, {tuple(key.split(".")): number(scene, key) for key in keys})
 
 
 def _show(found: list[Tuned], evaluations: int, seed: int, files: list[Path], json_mode: bool) -> None:
-    from tmm_gen.closed_loop.tuning import number
+    from tmm_gen.closed_loop.knobs import number
 
     rows: list[dict[str, object]] = []
     for item in found:
-        for key in dict.fromkeys(knob.key for knob in item.tunable.knobs):
+        for key in item.tunable.keys:
             rows.append({"tuned": item.tunable.name, "key": key, "value": number(item.scene, key)})
     prices = [
         {"tuned": item.tunable.name, "price": item.price, "price_before": item.price_before} for item in found
@@ -136,4 +138,6 @@ def _show(found: list[Tuned], evaluations: int, seed: int, files: list[Path], js
 
 
 def _written(value: object) -> str:
-    return repr(list(value)) if isinstance(value, tuple) else str(value)
+    from tmm_gen.scene.rewrite import as_written
+
+    return as_written(value) if isinstance(value, tuple | dict) else str(value)

@@ -43,11 +43,12 @@ class Figures:
     fallbacks: int
 
 
-def loop_figures(loop: Loop) -> Figures:
-    """Return the figures of a closed loop; see :class:`Figures`."""
+def loop_figures(loop: Loop, after: float = RESIDUAL_FROM) -> Figures:
+    """Return the figures of a closed loop; see :class:`Figures`. Vibration counts from an instant, s."""
     longest = float(np.max(np.abs(loop.goal - loop.tip[0])))
     every = [
-        _figures(loop, tip, float(goal), longest) for tip, goal in zip(loop.tip.T, loop.goal, strict=True)
+        _figures(loop, tip, float(goal), longest, after)
+        for tip, goal in zip(loop.tip.T, loop.goal, strict=True)
     ]
     settling = [figures.settling for figures in every if figures.settling is not None]
     return Figures(
@@ -59,10 +60,10 @@ def loop_figures(loop: Loop) -> Figures:
     )
 
 
-def _figures(loop: Loop, tip: Array, goal: float, longest: float) -> Figures:
+def _figures(loop: Loop, tip: Array, goal: float, longest: float, after: float) -> Figures:
     own = abs(goal - float(tip[0]))
     figures = step_figures(loop.time, tip, goal, BAND * longest / own if own else BAND)
-    late = tip[loop.time >= min(RESIDUAL_FROM, 0.5 * float(loop.time[-1])) - 1e-9]
+    late = tip[loop.time >= min(after, 0.5 * float(loop.time[-1])) - 1e-9]
     last = late[-max(1, len(late) // 5) :]
     return Figures(
         settling=figures.settling_time,

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from tmm_gen.closed_loop.figures import BAND, loop_figures
 from tmm_gen.closed_loop.loop import Loop, run_loop
-from tmm_gen.closed_loop.plant import Plant
+from tmm_gen.closed_loop.space_plant import plant_of
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.controllers import BY_NAME
+from tmm_gen.control.inverse_dynamics import quintic_way
+from tmm_gen.control.target import rest_with
 
-DURATION = 2.0
-"""Of each closed loop, s."""
 NOISES = (101, 102, 103, 104)
 """Seeds of the sensors' noise while tuning: none of those by which a tuning is judged afterwards."""
 
@@ -45,6 +46,8 @@ class Aim:
         Vibration from 1 s on, peak to peak, rad.
     required : bool
         Of all controllers, of the first two of those tuned together with several noises; else of these two, with one.
+    after : float
+        From when on vibration counts, s; a loop takes twice as long.
     """
 
     condition: Condition
@@ -52,7 +55,23 @@ class Aim:
     overshoot: float
     residual: float
     required: bool = False
+    after: float = 1.0
 
+    def of(self, settling: float, way: float) -> Aim:
+        """Return the like for another arm: that may take so long where this one may take `SETTLING`, on another way."""
+        times = settling / _SETTLING
+        return replace(
+            self,
+            settling=times * self.settling,
+            after=times * self.after,
+            residual=_TREMBLING * way * self.residual,
+        )
+
+
+_SETTLING = 0.79
+"""What the first two conditions below ask for, s."""
+_TREMBLING = 3.0
+"""How many times as much, per radian of the way, several motors may tremble: under weight, and with encoders alone."""
 
 AIMS: tuple[Aim, ...] = (
     Aim(Condition("payload", "payload +50 %", payload=1.5), 0.79, 0.014, 3.6e-3, required=True),
@@ -74,7 +93,7 @@ def price(loop: Loop, aim: Aim) -> float:
     """
     off = np.max(np.abs(loop.tip - loop.goal)[loop.time >= aim.settling - 1e-9])
     band = BAND * float(np.max(np.abs(loop.goal - loop.tip[0])))
-    figures = loop_figures(loop)
+    figures = loop_figures(loop, aim.after)
     found = max(math.sqrt(off / band), figures.overshoot / aim.overshoot, figures.residual / aim.residual)
     return min(found, _ASTRAY) if math.isfinite(found) else _ASTRAY
 
@@ -83,7 +102,7 @@ def objective(
     bench: Bench,
     controllers: Sequence[str],
     enough: float = math.inf,
-    aims: Sequence[Aim] = AIMS,
+    aims: Sequence[Aim] | None = None,
     order: float = _ORDER,
 ) -> float:
     """Return the price of a scene's tuning: the power mean of its closed loops' prices.
@@ -98,12 +117,15 @@ def objective(
         Names; all with the scene's numbers.
     enough : float
         Price from which on it does not matter how bad a tuning is.
-    aims : sequence of Aim
-        Conditions, and what is wanted under each.
+    aims : sequence of Aim, optional
+        Conditions, and what is wanted under each; by default those of :func:`aims_of`.
     order : float
         Of the mean; infinite for the price of the worst loop.
     """
-    loops = [(name, *each) for name in controllers for each in _trials(aims, name in controllers[:2])]
+    wanted, noises = aims_of(bench) if aims is None else aims, NOISES if rustles(bench) else NOISES[:1]
+    loops = [
+        (name, *each) for name in controllers for each in _trials(wanted, noises, name in controllers[:2])
+    ]
     prices = np.zeros(len(loops))
     made: dict[str, Controller] = {}
     total = 0.0
@@ -112,16 +134,37 @@ def objective(
             controller = made[name] = made.get(name) or BY_NAME[name].make(bench)
         except (np.linalg.LinAlgError, ValueError):  # numbers with which nothing can be solved
             return _HOPELESS
-        plant = Plant(bench.scene, bench.problem, aim.condition, seed)
-        prices[index] = price(run_loop(controller, plant, DURATION, timed=False), aim)
+        plant = plant_of(bench.scene, bench.problem, aim.condition, seed)
+        prices[index] = price(run_loop(controller, plant, 2.0 * aim.after, timed=False), aim)
         total = float(np.linalg.norm(prices, order)) / len(loops) ** (1.0 / order)
         if total > enough:
             break
     return total
 
 
-def _trials(aims: Sequence[Aim], thorough: bool) -> list[tuple[Aim, int]]:
+def aims_of(bench: Bench) -> tuple[Aim, ...]:
+    """Return what is aimed at: of several motors, that tips rest after a quintic of the rigid arm and one vibration.
+
+    The quintic is the shortest within nine tenths of the torques, the vibration the slowest there is.
+    """
+    problem, scene = bench.problem, bench.scene
+    if problem.motors.on_hub:
+        return AIMS
+    goal = rest_with(scene, problem.reference, "control.reference").goal
+    quintic = len(quintic_way(scene, problem, problem.start, goal).torque) * problem.sample_time
+    settling = quintic + 2.0 * math.pi / arm_of(scene).slowest()
+    way = float(np.max(np.abs(problem.reference - problem.start)))
+    return tuple(aim.of(settling, way) for aim in AIMS)
+
+
+def rustles(bench: Bench) -> bool:
+    """Return whether a sensor has noise: without, all loops of a condition are one."""
+    problem = bench.problem
+    return bool(np.any(np.nan_to_num(np.concatenate([problem.accelerometers, problem.gauges]))))
+
+
+def _trials(aims: Sequence[Aim], noises: Sequence[int], thorough: bool) -> list[tuple[Aim, int]]:
     """Return under which conditions and with which noises a controller is tried."""
     if not thorough:
-        return [(aim, NOISES[0]) for aim in aims if aim.required]
-    return [(aim, seed) for aim in aims for seed in (NOISES if aim.required else NOISES[:1])]
+        return [(aim, noises[0]) for aim in aims if aim.required]
+    return [(aim, seed) for aim in aims for seed in (noises if aim.required else noises[:1])]

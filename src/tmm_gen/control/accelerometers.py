@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.motor_rows import Motors
+from tmm_gen.control.sensor_key import where
 from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.space_motors import SpaceMotors
 from tmm_gen.errors import UserError
@@ -118,7 +119,7 @@ def accelerometer_of(scene: Scene, motors: Motors, motor: int) -> PlanarAccelero
     tip = motors.ends[motor]
     if tip is None:
         raise UserError(
-            f"{scene.source.origin}: control.sensors.accelerometer: what '{motors.names[motor]}' carries ends on "
+            f"{where(scene, 'accelerometer')}: what '{motors.names[motor]}' carries ends on "
             "its axis, where nothing can be felt of its turning. Name other motors."
         )
     frame = SpaceFrame(scene.spatial, tip.frame)

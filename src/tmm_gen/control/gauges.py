@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.motor_rows import Motors
+from tmm_gen.control.sensor_key import where
 from tmm_gen.errors import UserError
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.still import Still
@@ -105,7 +106,7 @@ def site_of(scene: Scene, motors: Motors, motor: int) -> Site:
     name = motors.names[motor]
     others = [each for k, each in enumerate(motors.names) if k != motor]
     raise UserError(
-        f"{scene.source.origin}: control.sensors.strain: the motor '{name}' carries no beam that bends about its axis, "
+        f"{where(scene, 'strain')}: the motor '{name}' carries no beam that bends about its axis, "
         "on which a gauge could be. "
         + (f"Name others that do, such as {{ {others[-1]} = 0.01 }}." if others else "Remove the key.")
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 from tmm_gen.scene.load import parse_scene
 from tmm_gen.scene.problem import Path, Problem, SceneError, show_path
@@ -12,9 +12,12 @@ from tmm_gen.scene.scene import Scene
 
 _NUMBER = r"[+-]?(?:\d[\d_]*\.?[\d_]*(?:[eE][+-]?\d+)?)"
 _LIST = r"\[[^\[\]#]*\]"
+_TABLE = r"\{[^{}#]*\}"
+Value: TypeAlias = float | Sequence[float] | Mapping[str, float | Sequence[float]]
+"""A number, a list of them, or either by names."""
 
 
-def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float | Sequence[float]]) -> str:
+def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, Value]) -> str:
     """Return the text of a scene file with some numbers replaced; comments and layout stay.
 
     Parameters
@@ -25,9 +28,9 @@ def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float
         Name used in errors.
     scene : Scene
         What the new text must say.
-    changes : mapping from path to float or sequence of float
-        New values: numbers, lists of them, or numbers in lists; each key must stand with its value on one line, no
-        other key of its name beside it.
+    changes : mapping from path to value
+        New values: numbers, lists of them, either of these by names, or numbers in lists; each key must stand with its
+        value on one line, no other key of its name beside it.
 
     Raises
     ------
@@ -40,6 +43,8 @@ def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float
         path, value = _whole(place, number, scene)
         line = lines.get(path)
         old = _LIST if isinstance(value, Sequence) else _NUMBER
+        if isinstance(value, Mapping):  # what was the same for all may be told by names now
+            old = f"(?:{_TABLE}|{_LIST}|{_NUMBER})"
         # at the start of a line, dotted or not, or in a table within it: material = { young = 70e9 }
         key = rf"((?:^\s*(?:[\w-]+\s*\.\s*)*|[{{,]\s*){re.escape(str(path[-1]))}\s*=\s*)"
         matches = list(re.finditer(rf"{key}{old}(?=[\s#,}}]|$)", rows[line - 1])) if line else []
@@ -48,7 +53,7 @@ def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float
             raise SceneError(
                 [Problem(origin, line or 1, show_path(path), None, "cannot be rewritten", remedy)]
             )
-        new = repr(list(value)) if isinstance(value, Sequence) else repr(value)
+        new = as_written(value)
         (match,) = matches
         start = rows[line - 1][: match.start()] + match[1] + new
         rows[line - 1] = _aligned(start, match.end(), rows[line - 1])
@@ -59,7 +64,14 @@ def rewritten(text: str, origin: str, scene: Scene, changes: Mapping[Path, float
     return whole
 
 
-def _whole(place: Path, value: float | Sequence[float], scene: Scene) -> tuple[Path, float | Sequence[float]]:
+def as_written(value: Any) -> str:
+    """Return a value as TOML has it."""
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{name} = {as_written(each)}" for name, each in value.items()) + " }"
+    return repr(list(value)) if isinstance(value, Sequence) else repr(value)
+
+
+def _whole(place: Path, value: Value, scene: Scene) -> tuple[Path, Value]:
     """Return a change as it is written: one of a number in a list by the whole list, as the scene has it."""
     if not isinstance(place[-1], int):
         return place, value
