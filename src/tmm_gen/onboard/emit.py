@@ -65,7 +65,9 @@ def emit_controller(
             f"the controller '{controller}' cannot be written in C; these can: {', '.join(EMITTED)}"
         )
     if bench.problem.keeps and controller in LINEAR:
-        raise keeps_no_walls(bench.scene, controller, ", ".join(each for each in EMITTED if each not in LINEAR))
+        raise keeps_no_walls(
+            bench.scene, controller, ", ".join(each for each in EMITTED if each not in LINEAR)
+        )
     name = name or f"{bench.scene.name}_{controller.replace('-', '_')}"
     taken = {"daqp": "the solver's files", bench.scene.name: "the arm's own functions"}
     if name in taken and (name == "daqp" or controller not in LINEAR):
