@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,6 +58,7 @@ class Repetition:
 
     course: Course
     stepper: Stepper
+    _beside: dict[Again, tuple[Array, Array]] = field(default_factory=dict, compare=False, repr=False)
 
     @property
     def scene(self) -> Scene:
@@ -74,7 +76,7 @@ class Repetition:
         """A way that is none, m."""
         return STILL * extent(self.scene)
 
-    @property
+    @cached_property
     def way(self) -> float:
         """How far the run goes, m."""
         places = placed(self.scene, self.trace.angle)
@@ -126,10 +128,12 @@ class Repetition:
 
     def beside(self, other: Again) -> tuple[Array, Array]:
         """Return where the run and a repetition are at the instants of the latter, (d, k, p) each, m."""
-        mine = self.trace.angle[:: round(other.every / self.trace.every)]
-        count = min(len(mine), len(other.trace.angle))
-        first, second = (placed(self.scene, angle[:count]) for angle in (mine, other.trace.angle))
-        return first, second
+        if other not in self._beside:
+            mine = self.trace.angle[:: round(other.every / self.trace.every)]
+            count = min(len(mine), len(other.trace.angle))
+            first, second = (placed(self.scene, angle[:count]) for angle in (mine, other.trace.angle))
+            self._beside[other] = first, second
+        return self._beside[other]
 
     def changed(self, one: Again, other: Again) -> float:
         """Return by how much two repetitions differ at most, m, where they have instants in common."""
