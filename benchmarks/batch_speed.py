@@ -71,7 +71,10 @@ def measured(scene: Scene, rounds: int, idle: bool) -> dict[str, object]:
         assert not run.status.any()
         return clock() - start
 
-    each = max(min(seconds(60) - seconds(10) for _ in range(3)), 1e-6) / 50
+    steps = 10
+    while (spent := seconds(steps) - seconds(0)) < 0.5 * _SECONDS:
+        steps *= 2
+    each = spent / steps
     steps = max(10, int(_SECONDS / each))
     many_steps = max(100, min(STEPS, int(_LONGEST * ARMS / SHARED / each)))
     together, ratios, gains = [], [], []
