@@ -73,6 +73,10 @@ def test_impossible_bounds_end_with_one(capsys: pytest.CaptureFixture[str], tmp_
             ("--max-error", "1e-3", "--max-time", "1", "--target", "z80"),
             "no such microcontroller; there are cortex",
         ),
+        (
+            ("--max-error", "1e-3", "--max-time", "1", "--tolerances", "--target", "cortex-m7"),
+            "a controller's are all alike. Leave out --target, or --tolerances.",
+        ),
         (("--max-time", "1"), "Missing option '--max-error'"),
     ],
 )

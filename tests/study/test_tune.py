@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from tmm_gen.errors import UserError
+from tmm_gen.inputs.waveforms import Step
 from tmm_gen.reference.reference import exact_response
 from tmm_gen.scene import Scene, load_scene, parse_scene
 from tmm_gen.simulate.run import simulate
 from tmm_gen.study.bounds import ErrorBound
+from tmm_gen.study.by_tolerance import require_desktop
 from tmm_gen.study.configuration import Configuration, Family, own
-from tmm_gen.study.excitation import columns, excitation
-from tmm_gen.study.explain import explained, remarks
+from tmm_gen.study.excitation import Excitation, columns, excitation
+from tmm_gen.study.explain import explained, remarks, tuned_text
 from tmm_gen.study.grid import Axes
 from tmm_gen.study.outcome import Outcome, Result
 from tmm_gen.study.rewrite import rewritten
@@ -204,3 +207,61 @@ def test_a_rewritten_scene_accepts_what_its_sweeps_leave(arm: Scene) -> None:
     assert "unsolved" not in rewritten(ARM, arm, configuration, [])
     text = rewritten(ARM, arm, configuration, [], 4e-4)
     assert parse_scene(text).model.unsolved == 4e-4
+
+
+@pytest.fixture(scope="module")
+def jumping(chain: Scene) -> Excitation:
+    """A push that ends within a step costs equal steps their order; by a tolerance steps end there."""
+    return excitation(chain, {item.name: Step(1.0, 0.0, 0.51377) for item in chain.inputs}, until=1.0)
+
+
+@pytest.mark.compiler
+def test_tolerances_are_tried_where_asked_for(chain: Scene, jumping: Excitation) -> None:
+    from .conftest import CHAIN
+
+    axes = Axes(integrators=("sdirk4", "houbolt"))
+    tuning = tune(chain, jumping, RELATIVE, 10.0, axes, rounds=1, tolerances=True)
+    (each,) = tuning.by_tolerance  # houbolt's steps cannot change on the way
+    run = each.run
+    assert run.family.integrator == "sdirk4"
+    assert run.tolerance <= 1e-3
+    assert run.error is not None
+    assert run.error <= 1e-3
+    assert each.ns_per_second > 0.0
+    # which of both is cheaper is the machine's to say; each may be dearer than the other by so much
+    assert tuning.verified is not None
+    equal = replace(tuning.verified, ns_per_second=0.5 * each.ns_per_second)
+    assert replace(tuning, verified=equal).cheaper is None
+    equal = replace(tuning.verified, ns_per_second=2.0 * each.ns_per_second)
+    dear = replace(tuning, verified=equal)
+    assert dear.cheaper is each
+    first, second = explained(dear)[:2]
+    assert first.startswith(f"sdirk4 by a tolerance of {run.tolerance:g}: {run.steps} steps, from ")
+    assert second.startswith("Of equal steps, ")
+    alone = replace(tuning, chosen=None, verified=None)
+    assert alone.found
+    assert not replace(alone, max_time=0.5e-9 * each.ns_per_second).found
+    written = parse_scene(tuned_text(dear, CHAIN))
+    assert written == chain.replace(**{"integrator.name": "sdirk4", "integrator.tolerance": run.tolerance})
+    # what is written does by NumPy what was claimed
+    found = simulate(written, jumping.signals, 1.0, "numpy")
+    exact = exact_response(written, jumping.signals, found.time)
+    names = columns(written, jumping.output)
+    off = [float(np.max(np.abs(found.outputs[name] - exact[name]))) / tuning.travel for name in names]
+    assert max(off) == pytest.approx(run.error, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("changes", "target", "auto_links", "told"),
+    [
+        ({}, "cortex-m4", False, "Leave out --target"),
+        ({"emit.budget": {"flash": 1000}}, None, False, "is for a controller"),
+        ({}, None, True, "leave out --links"),
+    ],
+)
+def test_tolerances_are_for_computers(
+    chain: Scene, changes: dict[str, object], target: str | None, auto_links: bool, told: str
+) -> None:
+    with pytest.raises(UserError, match=told):
+        require_desktop(chain.replace(**changes), target, auto_links=auto_links)
+    require_desktop(chain, None, auto_links=False)

@@ -132,6 +132,7 @@ class Studied(Described):
         until: float | None = None,
         output: str | None = None,
         target: str | None = None,
+        tolerances: bool = False,
         rounds: int = 9,
         inputs: Mapping[str, object] | None = None,
         **more: object,
@@ -152,6 +153,8 @@ class Studied(Described):
             As of :meth:`trade`.
         target : str, optional
             Microcontroller that the scene's budget is for.
+        tolerances : bool
+            Whether to try steps that a tolerance within the bound on the error chooses, too; not for controllers.
         """
         from tmm_gen.api.tuned import Tuned, searched
         from tmm_gen.scene import parse_scene
@@ -166,9 +169,19 @@ class Studied(Described):
         }
         acting = named(self.scene, inputs, more)
         tuning, allowed = searched(
-            self.scene, max_error, max_time, links, options, until, output, target, rounds, acting
+            self.scene,
+            max_error,
+            max_time,
+            links,
+            options,
+            until,
+            output,
+            target,
+            rounds,
+            acting,
+            tolerances=tolerances,
         )
-        if tuning.chosen is None:
+        if not tuning.found:
             return Tuned(tuning, allowed, None)
         return Tuned(tuning, allowed, self._arm(parse_scene(tuned_text(tuning, self.toml()))))
 

@@ -16,6 +16,7 @@ from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 from tmm_gen.study.bounds import ErrorBound, read_error, read_time
 from tmm_gen.study.budgets import Allowance, allowance, require_target
+from tmm_gen.study.by_tolerance import require_desktop
 from tmm_gen.study.explain import bounds_of, explained, under
 from tmm_gen.study.tune import Tuning
 from tmm_gen.study.tune import tune as search
@@ -62,16 +63,27 @@ class Tuned:
     def integrator(self) -> str | None:
         """The one that was chosen."""
         chosen = self.tuning.chosen
+        if self.tuning.cheaper is not None:
+            return self.tuning.cheaper.run.family.integrator
         return None if chosen is None else chosen.configuration.family.integrator
 
     @property
+    def tolerance(self) -> float | None:
+        """The one that was chosen to choose steps by; None where these are all alike."""
+        return None if self.tuning.cheaper is None else self.tuning.cheaper.run.tolerance
+
+    @property
     def step(self) -> float | None:
-        """s; the one that was chosen."""
+        """s; the one that was chosen. None where a tolerance chooses steps."""
+        if self.tuning.cheaper is not None:
+            return None
         return None if self.tuning.chosen is None else self.tuning.chosen.configuration.step
 
     @property
     def error(self) -> float | None:
         """Largest error of the chosen one, run afresh, relative to how far the output travels."""
+        if self.tuning.cheaper is not None:
+            return self.tuning.cheaper.run.error
         point, checked = self.tuning.chosen, self.tuning.verified
         if point is None or checked is None:
             return None
@@ -80,6 +92,8 @@ class Tuned:
     @property
     def seconds(self) -> float | None:
         """Seconds of computing for a simulated second, of the chosen one, on this machine."""
+        if self.tuning.cheaper is not None:
+            return 1e-9 * self.tuning.cheaper.ns_per_second
         checked = self.tuning.verified
         return None if checked is None else 1e-9 * checked.ns_per_second
 
@@ -101,7 +115,9 @@ class Tuned:
         """Say what was chosen."""
         chosen = self.tuning.chosen
         said = f"nothing keeps {bounds_of(self.tuning)}"
-        if chosen is not None:
+        if self.tolerance is not None:
+            said = f"{self.integrator} by a tolerance of {self.tolerance:g}"
+        elif chosen is not None:
             said = f"{chosen.configuration.family.label} at {self.step:.4g} s"
         return f"<Tuning of {self.tuning.scene.name}: {said}>"
 
@@ -125,6 +141,8 @@ def searched(
     target: str | None,
     rounds: int,
     acting: Mapping[str, object],
+    *,
+    tolerances: bool = False,
 ) -> tuple[Tuning, Allowance | None]:
     """Search; arguments as of :meth:`tmm_gen.Arm.tune`, what else is varied in `options`."""
     bounds = _error(max_error), _time(max_time)
@@ -133,10 +151,13 @@ def searched(
     if target is not None and not isinstance(target, str):
         raise UserError(f"target: {target!r} is no name of a microcontroller. Name one.")
     require_target(target)
+    if tolerances:
+        require_desktop(scene, target, auto_links=auto)
     measured = whole("rounds", rounds, 1)
     went = excited(scene, until, output, acting)
     allowed = allowance(scene, target)
-    return search(scene, went, *bounds, axes, auto, allowed, measured), allowed
+    found = search(scene, went, *bounds, axes, auto, allowed, measured, tolerances=tolerances)
+    return found, allowed
 
 
 def _error(bound: object) -> ErrorBound:

@@ -94,7 +94,7 @@ _RULES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"--force\b", "force=True"),
     (r"what --input gives", "what is given"),
     (rf"--({_VALUED}) (?!(?:{_WORDS})\b){_VALUE}", _option),
-    (rf"--({_VALUED}|near|input|fit|iterations|corrections)(?![\w-])", _bare),
+    (rf"--({_VALUED}|near|input|fit|iterations|corrections|tolerances)(?![\w-])", _bare),
 )
 
 

@@ -72,6 +72,11 @@ if TYPE_CHECKING:
 @click.option(
     "--output", metavar="NAME", help="Where the error is measured; by default the tip's place or angle."
 )
+@click.option(
+    "--tolerances",
+    is_flag=True,
+    help="Try steps that a tolerance within the error chooses, too; not for controllers.",
+)
 @click.option("--target", metavar="NAME", help="Microcontroller that the scene's [emit.budget] is for.")
 @click.option("--out", "out_file", type=OutputFile(), metavar="FILE", help="Write the tuned scene.")
 @click.option(
@@ -98,10 +103,10 @@ def tune(
     one_thread()
     tuning, allowed = _search(scene, max_error, max_time, options)
     written = []
-    if out_file is not None and tuning.chosen is not None:
+    if out_file is not None and tuning.found:
         written.append(_write(scene, out_file, tuning, force))
     _show(tuning, allowed, written, json_mode)
-    return 0 if tuning.chosen is not None else 1
+    return 0 if tuning.found else 1
 
 
 def _search(
@@ -111,6 +116,7 @@ def _search(
     from tmm_gen.study.axes import axes_of
     from tmm_gen.study.bounds import read_error, read_time
     from tmm_gen.study.budgets import allowance, require_target
+    from tmm_gen.study.by_tolerance import require_desktop
     from tmm_gen.study.excitation import excitation
     from tmm_gen.study.grid import families
     from tmm_gen.study.tune import tune as search
@@ -121,12 +127,26 @@ def _search(
     links = () if auto or options["links"] is None else _links(options["links"])
     axes = axes_of(scene, {**options, "links": links, "steps": (), "backends": ("c",)})
     require_target(options["target"])
+    if options["tolerances"]:
+        require_desktop(scene, options["target"], auto_links=auto)
     given = read_inputs(options["given"], *input_names(scene))
     went = excitation(scene, given, options["until"], options["output"])
     allowed = allowance(scene, options["target"])
-    with progress(f"tuning {scene.name}", total=len(families(scene, axes)) * (1 + auto)) as advance:
+    searched = families(scene, axes)
+    units = len(searched) * (1 + auto)
+    if options["tolerances"]:
+        units += len({family.integrator for family in searched})
+    with progress(f"tuning {scene.name}", total=units) as advance:
         tuning = search(
-            scene, went, *bounds, axes, auto, allowed, options["rounds"], lambda n, doing: advance(n, doing)
+            scene,
+            went,
+            *bounds,
+            axes,
+            auto,
+            allowed,
+            options["rounds"],
+            lambda n, doing: advance(n, doing),
+            tolerances=options["tolerances"],
         )
     return tuning, allowed
 
@@ -176,7 +196,7 @@ def _show(tuning: Tuning, allowed: Allowance | None, written: list[Path], json_m
     for line in lines:
         click.echo(line)
     click.echo(under(tuning))
-    say_written(written, "--out FILE writes the tuned scene" if tuning.chosen is not None else "")
+    say_written(written, "--out FILE writes the tuned scene" if tuning.found else "")
 
 
 def _facts(tuning: Tuning, lines: list[str], written: list[Path]) -> dict[str, object]:
@@ -189,10 +209,11 @@ def _facts(tuning: Tuning, lines: list[str], written: list[Path]) -> dict[str, o
         "excitation": tuning.excitation.told(tuning.scene),
         "max_error": tuning.max_error,
         "max_time": tuning.max_time,
-        "found": tuning.chosen is not None,
+        "found": tuning.found,
         "explanation": lines,
         "files": written,
         "chosen": None,
+        "by_tolerance": [{**each.values(), "chosen": each is tuning.cheaper} for each in tuning.by_tolerance],
     }
     point, checked = tuning.chosen, tuning.verified
     if point is not None and checked is not None:

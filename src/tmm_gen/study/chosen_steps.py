@@ -10,6 +10,7 @@ import numpy as np
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene, SceneError
 from tmm_gen.simulate.run import simulate
+from tmm_gen.simulate.stepping import Stepper
 from tmm_gen.study.configuration import Configuration, Family, own
 from tmm_gen.study.excitation import Excitation, columns
 from tmm_gen.study.truth import Truth
@@ -89,33 +90,53 @@ def runs(
     """
     for family in families:
         for tolerance in tolerances:
-            found, any_other = _run(scene, excitation, family, tolerance, truth)
+            found, _, any_other = run_by(scene, excitation, family, tolerance, truth)
             yield found
             advance(1, f"{family.integrator} by a tolerance of {tolerance:g}")
             if not any_other:
                 break
 
 
-def _run(
+def changes_of(family: Family, tolerance: float) -> dict[str, object]:
+    """Return the keys of a scene by which it is run so, as :meth:`Scene.replace` takes them."""
+    return {"integrator.name": family.integrator, "integrator.tolerance": tolerance}
+
+
+def run_by(
     scene: Scene, excitation: Excitation, family: Family, tolerance: float, truth: Truth
-) -> tuple[ChosenSteps, bool]:
-    """Return the run, and whether others may do where it does not."""
-    changes = {"integrator.name": family.integrator, "integrator.tolerance": tolerance}
+) -> tuple[ChosenSteps, Callable[[], ChosenSteps], bool]:
+    """Return a run, what takes it once more with the same kernel, and whether others may do where it does not."""
     try:
-        chosen = scene.replace(**changes)
+        chosen = scene.replace(**changes_of(family, tolerance))
     except SceneError as error:
-        return ChosenSteps(family, tolerance, _flat(error)), False
+        refused = ChosenSteps(family, tolerance, _flat(error))
+        return refused, lambda: refused, False
     try:
-        found = simulate(chosen, excitation.signals, excitation.until, "c")
+        kernel = Stepper.of(chosen, "c").kernel
     except UserError as error:
-        return ChosenSteps(family, tolerance, _flat(error)), True
+        refused = ChosenSteps(family, tolerance, _flat(error))
+        return refused, lambda: refused, True
+
+    def run() -> ChosenSteps:
+        return _run(chosen, excitation, family, tolerance, truth, kernel)
+
+    return run(), run, True
+
+
+def _run(
+    chosen: Scene, excitation: Excitation, family: Family, tolerance: float, truth: Truth, kernel: object
+) -> ChosenSteps:
+    try:
+        found = simulate(chosen, excitation.signals, excitation.until, "c", kernel=kernel)
+    except UserError as error:
+        return ChosenSteps(family, tolerance, _flat(error))
     inside = found.time <= excitation.until * (1.0 + 1e-9)
     there = np.array([found.outputs[name][inside] for name in columns(chosen, excitation.output)])
     off = np.linalg.norm(there - truth.at(found.time[inside]), axis=0) / truth.travel
     did, accuracy = found.chosen, found.accuracy
     assert did is not None
     assert accuracy is not None
-    did_it = ChosenSteps(
+    return ChosenSteps(
         family,
         tolerance,
         claimed=accuracy.error,
@@ -125,7 +146,6 @@ def _run(
         smallest=did.smallest,
         largest=did.largest,
     )
-    return did_it, True
 
 
 def _flat(error: UserError) -> str:

@@ -5,16 +5,24 @@ from __future__ import annotations
 from dataclasses import replace
 
 from tmm_gen.study.budgets import Allowance
+from tmm_gen.study.by_tolerance import ByTolerance
 from tmm_gen.study.configuration import own
 from tmm_gen.study.findings import time_text
 from tmm_gen.study.point import Point
-from tmm_gen.study.rewrite import rewritten
+from tmm_gen.study.rewrite import rewritten, with_tolerance
 from tmm_gen.study.tune import Tuning
 
 
 def explained(tuning: Tuning, allowed: Allowance | None = None) -> list[str]:
     """Return sentences, the most important first; last, why a budget could not be looked after."""
-    lines = _chosen(tuning) if tuning.chosen is not None else _none(tuning)
+    if tuning.cheaper is not None:
+        lines = [_by_tolerance(tuning, tuning.cheaper)]
+        if tuning.chosen is not None:
+            first, *others = _chosen(tuning)
+            lines += [f"Of equal steps, {first}", *others]
+    else:
+        lines = _chosen(tuning) if tuning.chosen is not None else _none(tuning)
+    lines += [_by_tolerance(tuning, each) for each in tuning.by_tolerance if each is not tuning.cheaper]
     if allowed is not None and allowed.unchecked:
         lines.append(f"The budget of the scene was not checked: {allowed.unchecked}")
     return lines
@@ -35,6 +43,9 @@ def under(tuning: Tuning) -> str:
 
 def tuned_text(tuning: Tuning, text: str) -> str:
     """Return the text of a scene file with the configuration that was chosen, and remarks on where it comes from."""
+    if tuning.cheaper is not None:
+        run = tuning.cheaper.run
+        return with_tolerance(text, tuning.scene, run.family, run.tolerance, remarks(tuning))
     assert tuning.chosen is not None
     accepted = tuning.verified.accepted if tuning.verified is not None else None
     return rewritten(text, tuning.scene, tuning.chosen.configuration, remarks(tuning), accepted)
@@ -42,13 +53,25 @@ def tuned_text(tuning: Tuning, text: str) -> str:
 
 def remarks(tuning: Tuning) -> list[str]:
     """Return what a scene file should say about where its configuration comes from."""
-    assert tuning.verified is not None
-    error = _error(tuning, _total(tuning))
+    if tuning.cheaper is not None:
+        error, ns = _error(tuning, tuning.cheaper.run.error), tuning.cheaper.ns_per_second
+    else:
+        assert tuning.verified is not None
+        error, ns = _error(tuning, _total(tuning)), tuning.verified.ns_per_second
     return [
         f"Tuned by `tmm-gen tune`: the output '{tuning.excitation.output}' is off by at most {error}",
         f"over {tuning.excitation.until:g} s of {'; '.join(tuning.excitation.told(tuning.scene))};",
-        f"a simulated second takes {time_text(tuning.verified.ns_per_second)} on the machine it was tuned on.",
+        f"a simulated second takes {time_text(ns)} on the machine it was tuned on.",
     ]
+
+
+def _by_tolerance(tuning: Tuning, each: ByTolerance) -> str:
+    run = each.run
+    return (
+        f"{run.family.integrator} by a tolerance of {run.tolerance:g}: {run.steps} steps, from {run.smallest:.2g} to "
+        f"{run.largest:.2g} s; the output '{tuning.excitation.output}' is off by at most {_error(tuning, run.error)}, "
+        f"and a simulated second takes {time_text(each.ns_per_second)}, with all that chooses and measures."
+    )
 
 
 def _chosen(tuning: Tuning) -> list[str]:

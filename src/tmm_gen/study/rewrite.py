@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from tmm_gen.scene import Scene, parse_scene
 from tmm_gen.scene.integrator import underscored
-from tmm_gen.study.configuration import Configuration
+from tmm_gen.study.chosen_steps import changes_of
+from tmm_gen.study.configuration import Configuration, Family
 
 
 def rewritten(
@@ -32,16 +34,34 @@ def rewritten(
     RuntimeError
         If the new text does not say just that: a defect of tmm-gen.
     """
-    import tomlkit
-
-    document = tomlkit.parse(text)
     changes = {**configuration.family.changes(scene), "integrator.step": configuration.step}
     expected = configuration.apply(scene)
     if accepted is not None:
         changes["model.unsolved"] = accepted
         expected = expected.replace(**{"model.unsolved": accepted})
+    return _written(text, scene, configuration.family.integrator, changes, expected, remarks)
+
+
+def with_tolerance(text: str, scene: Scene, family: Family, tolerance: float, remarks: list[str]) -> str:
+    """Return the text of a scene file whose steps a tolerance chooses; arguments and errors as of :func:`rewritten`."""
+    changes = changes_of(family, tolerance)
+    return _written(text, scene, family.integrator, changes, scene.replace(**changes), remarks)
+
+
+def _written(
+    text: str,
+    scene: Scene,
+    integrator: str,
+    changes: Mapping[str, object],
+    expected: Scene,
+    remarks: list[str],
+) -> str:
+    """Return a file's text with some keys changed, which are all that makes the expected scene of it."""
+    import tomlkit
+
+    document = tomlkit.parse(text)
     table: Any = document["integrator"]
-    if underscored(configuration.family.integrator) != scene.integrator.name:
+    if underscored(integrator) != scene.integrator.name:
         for key in [key for key in table if key not in ("name", "step")]:
             del table[key]
     table.pop("tolerance", None)

@@ -11,6 +11,8 @@ from tmm_gen.native.timing import ROUNDS, Cost
 from tmm_gen.scene import Scene
 from tmm_gen.study.bounds import ErrorBound
 from tmm_gen.study.budgets import Allowance
+from tmm_gen.study.by_tolerance import ByTolerance, tolerances_within
+from tmm_gen.study.chosen_steps import serving
 from tmm_gen.study.configuration import Configuration, Family, own
 from tmm_gen.study.cost import measure_costs, timed_step
 from tmm_gen.study.evaluate import evaluate
@@ -60,6 +62,8 @@ class Tuning:
         What the winner does when run afresh.
     beyond : tuple of (Configuration, Result), optional
         The next longer step of the winner, which is not accurate enough.
+    by_tolerance : tuple of ByTolerance
+        Runs whose steps a tolerance chooses, where any were asked for, cheapest first; all keep the bound on the error.
     """
 
     scene: Scene
@@ -74,6 +78,18 @@ class Tuning:
     chosen: Point | None = None
     verified: Verified | None = None
     beyond: tuple[Configuration, Result] | None = None
+    by_tolerance: tuple[ByTolerance, ...] = ()
+
+    @property
+    def cheaper(self) -> ByTolerance | None:
+        """The run by a tolerance that keeps both bounds and takes less than equal steps; None where these win."""
+        equal = 1e9 * self.max_time if self.verified is None else self.verified.ns_per_second
+        return next((each for each in self.by_tolerance[:1] if each.ns_per_second <= equal), None)
+
+    @property
+    def found(self) -> bool:
+        """Whether anything keeps all bounds."""
+        return self.chosen is not None or self.cheaper is not None
 
     @property
     def unit(self) -> str:
@@ -103,6 +119,8 @@ def tune(
     allowance: Allowance | None = None,
     rounds: int = ROUNDS,
     advance: Advance = lambda count, doing: None,
+    *,
+    tolerances: bool = False,
 ) -> Tuning:
     """Search the cheapest configuration within bounds.
 
@@ -126,6 +144,8 @@ def tune(
         Measurements of each time.
     advance : callable
         Called with the units of work done and what is being done; one unit a family.
+    tolerances : bool
+        Whether steps that a tolerance chooses are tried too, by each integrator with all else as the scene has it.
 
     Raises
     ------
@@ -148,6 +168,11 @@ def tune(
         return replace(found, modelling_error=modelling.get(configuration.family.links or 0))
 
     searched = _search(scene, excitation, axes, bound, modelling, run, advance)
+    by: list[ByTolerance] = []
+    if tolerances:
+        named = serving(scene, [Configuration(each, mine.step) for each in families(scene, axes)])
+        truth = references.of(mine.family.links)
+        by += tolerances_within(scene, excitation, named, bound, truth, advance)
     original = run(mine)
     # the scene as it was among them, by turns: what is compared is measured at the same time
     tried = {found.configuration: found.result for found in searched}
@@ -156,6 +181,7 @@ def tune(
     good = sorted((points[f.configuration] for f in searched if f.good), key=_price)
     far = sorted((points[f.configuration] for f in searched if not f.good), key=lambda p: p.error)
     base = Tuning(scene, excitation, travel, bound, max_time, tuple(good), tuple(far), {}, own_point)
+    base = replace(base, by_tolerance=tuple(sorted(by, key=lambda each: each.ns_per_second)))
     over: dict[Family, str] = {}
     for point in good:
         if _price(point) > 1e9 * max_time:
