@@ -151,7 +151,7 @@ def test_the_page_needs_nothing_else_and_fits_a_phone(
     ("scene", "words", "said"),
     [
         (TROLLEY, [], "the input 'way' moves its base in space, which a playground does not show yet"),
-        ("scenes/cube.toml", ["--integrators", "gauss2"], "integrator 'gauss2': choose from "),
+        ("scenes/cube.toml", ["--integrators", "gauss4"], "integrator 'gauss4': choose from "),
     ],
 )
 def test_what_no_page_shows_is_said(
