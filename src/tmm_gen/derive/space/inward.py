@@ -39,8 +39,6 @@ YIELD = sp.Matrix(
 )
 """What of an acceleration and an angular acceleration of its section the joint takes back, and what of a torque that it
 lacks goes into force and moment there: inertias are symmetric."""
-SHARE = sp.Symbol("law_share", real=True)
-"""Of a torque that the joint lacks, what its own law takes."""
 
 
 def _articulated() -> sp.Matrix:
@@ -128,14 +126,14 @@ class Inertial:
             for symbol, v in zip(YIELD, about, strict=True)
             if v != 0
         ]
-        lines.append(Let(SHARE, IMPEDANCE * ADMITTANCE, "of what the joint does not give way by"))
+        share = sheet.named("share", IMPEDANCE * ADMITTANCE, "of what the joint does not give way by")
         scaled = [sheet.named(f"scaled_{name}", gain * v) for name, v in zip(YIELD, about, strict=True)]
         freed = sp.zeros(6, 6)
         for i in range(6):
             for j in range(i, 6):
                 # the joint's own law says what moment it passes on: no small difference of large numbers
                 own_law = axis in (i, j)
-                value = SHARE * about[i + j - axis] if own_law else inertia[i, j] - self._yield[i] * scaled[j]
+                value = share * about[i + j - axis] if own_law else inertia[i, j] - self._yield[i] * scaled[j]
                 freed[i, j] = freed[j, i] = sheet.named(entry_name("freed", i, j), value)
         for crossing in reversed(self._out.crossings):
             through = through_accelerations(crossing.equations)
@@ -172,7 +170,7 @@ class Inertial:
             [
                 sheet.named(
                     f"left_{'force' if i < 3 else 'moment'}_{AXES[i % 3]}",
-                    SHARE * IMBALANCE - TORQUE if i == axis else bias[i] - moving * self._yield[i],
+                    IMPEDANCE * RELIEF - TORQUE if i == axis else bias[i] - moving * self._yield[i],
                 )
                 for i in range(6)
             ]

@@ -25,7 +25,6 @@ from tmm_gen.derive.space.inward import (
     IMPEDANCE,
     OWN,
     RELIEF,
-    SHARE,
     TORQUE,
     YIELD,
 )
@@ -51,7 +50,6 @@ _KEPT: dict[sp.Symbol, tuple[str, str]] = {
     **dict.fromkeys(
         YIELD[3:, :], ("of an angular acceleration of its section, what each joint takes back", "1")
     ),
-    SHARE: ("of a torque that each joint lacks, what its own law takes", "1"),
     RELIEF: ("what each joint does by itself", "rad/s^2"),
     ADMITTANCE: ("motion of each joint per torque in it", "1/(kg m^2)"),
     IMBALANCE: ("torque that each joint lacks", "N m"),
