@@ -145,7 +145,7 @@ def test_newest_acceleration_costs_little(kind: str) -> None:
     assert 0 < newest - none <= (8 if kind == "planar" else 4)
 
 
-DIRECTIONS = {"bend, bend": (494, 600), "link": (814, 953)}
+DIRECTIONS = {"bend, bend": (494, 589), "link": (814, 942)}
 """Per joint of a step with one correction: that which keeps what its slopes are, once, and each direction of its
 tangent."""
 
