@@ -50,10 +50,31 @@ def output_routine(layout: SpaceLayout, bodies: Bodies) -> Routine:
     """Build the outputs from the state."""
     readings = _Readings(layout, bodies)
     sections = tuple(
-        Section(f"output {o.name}: {o.of.replace('_', ' ')}", tuple(readings.statements(o)))
-        for o in layout.arm.outputs
+        Section(
+            f"output {', '.join(o.name for o in group)}: {group[0].of.replace('_', ' ')}",
+            tuple(readings.statements(group)),
+        )
+        for group in _together(layout)
     )
     return Routine("output", "Read the outputs off the state.", sections)
+
+
+def _together(layout: SpaceLayout) -> list[list[ArmOutput]]:
+    """Return outputs by what is read together: the same of several frames, on one way out to the last of them."""
+    found: list[list[ArmOutput]] = []
+    for output in layout.arm.outputs:
+        group = next((g for g in found if g[0].of == output.of and _one_way(layout, [*g, output])), None)
+        if group is None:
+            found.append([output])
+        else:
+            group.append(output)
+    return found
+
+
+def _one_way(layout: SpaceLayout, outputs: list[ArmOutput]) -> bool:
+    """Whether frames that joints carry lie behind each other."""
+    joints = [o.frame.joint if o.frame else 0 for o in outputs]
+    return min(joints) > 0 and {j - 1 for j in joints} <= layout.tree.inward_of(max(joints) - 1)
 
 
 class _Readings:
@@ -62,6 +83,7 @@ class _Readings:
     def __init__(self, layout: SpaceLayout, bodies: Bodies) -> None:
         self._layout, self._bodies = layout, bodies
         self._outputs = {v.name: v.ref for v in layout.outputs}
+        self._passing: list[ArmOutput] = []
         self._by: dict[str, Callable[[ArmOutput, list[Ref]], list[Statement]]] = {
             "bend": self._motion,
             "through": self._torque,
@@ -70,9 +92,14 @@ class _Readings:
             "energy": self._energy,
         }
 
-    def statements(self, output: ArmOutput) -> list[Statement]:
-        """Return the statements of one output."""
-        return self._by[output.quantity.read](output, [self._outputs[c] for c in output.columns])
+    def statements(self, outputs: Sequence[ArmOutput]) -> list[Statement]:
+        """Return the statements of one output, or of several frames that one walk passes."""
+        walked = max(outputs, key=lambda output: output.frame.joint if output.frame else 0)
+        self._passing = [output for output in outputs if output is not walked]
+        return self._by[walked.quantity.read](walked, self._targets(walked))
+
+    def _targets(self, output: ArmOutput) -> list[Ref]:
+        return [self._outputs[column] for column in output.columns]
 
     def _state(self, kind: Kind) -> Variable:
         return self._layout.state[Past(kind, 0)]
@@ -181,34 +208,44 @@ class _Readings:
 
     def _position(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
         frame = _frame(output)
-        at = sp.Matrix([exactly(r) for r in frame.at])
         if self._rests(frame):
+            at = sp.Matrix([exactly(r) for r in frame.at])
             return [
                 Assign(t, v + self._moved("place", k))
                 for k, (t, v) in enumerate(zip(targets, at, strict=True))
             ]
-        begun = facing_line(place=True)
-        return self._read(frame, pose_lines, (*PLACE, *FACING), PLACE + FACING.T * at, targets, begun)
+
+        def value(frame: Frame) -> sp.Matrix:
+            return PLACE + FACING.T * sp.Matrix([exactly(r) for r in frame.at])
+
+        return self._read(frame, pose_lines, (*PLACE, *FACING), value, targets, facing_line(place=True))
 
     def _orientation(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
         frame = _frame(output)
-        own = sp.Matrix([exactly(x) for x in quaternion_of(frame.turn)])
+
+        def own(frame: Frame) -> sp.Matrix:
+            return sp.Matrix([exactly(x) for x in quaternion_of(frame.turn)])
+
         if self._rests(frame):
-            return [Assign(t, v) for t, v in zip(targets, own, strict=True)]
-        value = quaternion_product(QUATERNION, own)
+            return [Assign(t, v) for t, v in zip(targets, own(frame), strict=True)]
+
+        def value(frame: Frame) -> sp.Matrix:
+            return quaternion_product(QUATERNION, own(frame))
+
         return self._read(frame, quaternion_lines, tuple(QUATERNION), value, targets, quaternion_line())
 
     def _velocity(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
         frame = _frame(output)
         if self._rests(frame):
             return [Assign(t, self._moved("velocity", k)) for k, t in enumerate(targets)]
-        at = sp.Matrix([exactly(r) for r in frame.at])
 
         def lines(pattern: Pattern) -> Sequence[Line]:
             return (*velocity_lines(pattern), *facing_lines(pattern))
 
+        def value(frame: Frame) -> sp.Matrix:
+            return FACING.T * (VELOCITY + OMEGA.cross(sp.Matrix([exactly(r) for r in frame.at])))
+
         carried = (*VELOCITY, *OMEGA, *FACING)
-        value = FACING.T * (VELOCITY + OMEGA.cross(at))
         return self._read(frame, lines, carried, value, targets, (*base_velocity(), *facing_line()))
 
     def _read(
@@ -216,18 +253,23 @@ class _Readings:
         frame: Frame,
         lines: Callable[[Pattern], Sequence[Line]],
         carried: tuple[sp.Symbol, ...],
-        value: sp.Matrix,
+        value: Callable[[Frame], sp.Matrix],
         targets: list[Ref],
         begun: tuple[Line, ...],
     ) -> list[Statement]:
-        """Walk out to a frame's body, and read something there; ``begun`` at a base that floats."""
+        """Walk out to a frame's body, and read something there and on the way; ``begun`` at a base that floats."""
         last = frame.joint - 1
         if not frame.joint:
-            there = Update(dict(zip(targets, value, strict=True)))
+            there = Update(dict(zip(targets, value(frame), strict=True)))
             return list(self._walks().base_lines((*begun, there)))
+        reads: dict[int, dict[Ref, sp.Expr]] = {last: dict(zip(targets, value(frame), strict=True))}
+        for other in self._passing:
+            passed = _frame(other)
+            values = zip(self._targets(other), value(passed), strict=True)
+            reads.setdefault(passed.joint - 1, {}).update(values)
 
         def read(index: int) -> Sequence[Line]:
-            return (Update(dict(zip(targets, value, strict=True))),) if index == last else ()
+            return (Update(reads[index]),) if index in reads else ()
 
         within = self._layout.tree.inward_of(last)
         return self._walks().walk(Order.OUTWARD, lines, carried, read, within, self._at_base(begun))
