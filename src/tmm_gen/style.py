@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import textwrap
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.text import Text
     from matplotlib.ticker import Formatter, LogFormatterMathtext
 
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f4f24", "#999933")
@@ -139,8 +141,46 @@ def picture(made: Figure, form: str) -> bytes:
     metadata = {"png": {"Software": "tmm-gen"}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[form]
     _write_powers_plainly(made)
     with style(), BytesIO() as buffer:
+        _break_long_titles(made)
         made.savefig(buffer, format=form, dpi=160, metadata=metadata)
         return buffer.getvalue()
+
+
+def _break_long_titles(made: Figure) -> None:
+    """Break titles that would run out of the picture into lines, at blanks."""
+    from matplotlib.text import Text
+
+    whole, long = made.bbox, [text for text in made.findobj(Text) if len(text.get_text()) > _SHORT]
+    if not any(text.get_window_extent().width > _ROOM * whole.width for text in long):
+        return
+    for text in long:
+        _break(text, whole.width)  # as axes have no room beside a title that is wider than all of it
+    for _ in range(_ROUNDS):
+        made.draw_without_rendering()  # tells where they begin, now that they have so many lines
+        edge = whole.x1 - _EDGE * made.dpi
+        broken = [_break(text, edge - text.get_window_extent().x0) for text in long]
+        if not any(broken):
+            return
+
+
+def _break(text: Text, room: float) -> bool:
+    """Break a text into lines no longer than some room (pixels); return whether that was called for."""
+    width = text.get_window_extent().width
+    if width <= room or room <= 0.0 or text.get_rotation():
+        return False
+    longest = max(map(len, text.get_text().splitlines()))
+    most = max(_SHORT // 2, int(longest * room / width) - 1)
+    text.set_text(textwrap.fill(" ".join(text.get_text().split()), most))
+    return True
+
+
+_ROUNDS = 4
+_SHORT = 30
+"""Characters that have room in any picture."""
+_ROOM = 0.4
+"""Share of a picture's width that a title beside a field has, less its margins."""
+_EDGE = 0.1
+"""Left free beside a title, inches."""
 
 
 def _write_powers_plainly(made: Figure) -> None:

@@ -62,6 +62,14 @@ def test_history_that_no_step_reads_is_not_kept(explained: dict[str, Explanation
     assert term(explained["houbolt"], name).worth.state_bytes > 0
 
 
+@pytest.mark.parametrize("integrator", ["radau2", "gauss3"])
+def test_a_polynomial_of_accelerations_is_read_whole(
+    integrator: str, example: Callable[[str], Scene]
+) -> None:
+    scene = example("arm2").replace(**{"integrator.name": integrator})
+    assert term(explain(scene), "history that no step reads").worth.state_bytes == 0
+
+
 def test_a_step_that_prepared_itself_would_repeat_prepare(explained: dict[str, Explanation]) -> None:
     found = explained["thesis10"]
     hoisted = term(found, "parameters that change between steps")

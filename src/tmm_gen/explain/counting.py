@@ -83,13 +83,17 @@ def _explained(term: Term, scene: Scene, own: Footprint) -> Explained:
 
 
 def _history(scene: Scene, program: Program) -> Explained:
-    """Count the numbers a state would hold if it kept angle, rate and acceleration of each instant looked back to."""
+    """Count the numbers a state would hold if it kept angle, rate and acceleration of each instant looked back to.
+
+    Of a step whose stages are solved at once, accelerations at all of them.
+    """
     method = integrator(scene.integrator.name, **scene.integrator.parameters)
     depth = history_depth(method)
     turning = scene.stations + scene.base.moves
     motion = [v for v in program.state if _is_motion(v)]
     kept = sum(v.length or 1 for v in motion)
-    saved = (3 * depth * turning - kept) * real_of(scene.emit).number_size
+    accelerations = len(method.main.stages) if method.main.coupled else 1
+    saved = ((2 + accelerations) * depth * turning - kept) * real_of(scene.emit).number_size
     per_link = sum(1 for v in motion if v.length is not None)
     each = "link" if scene.spatial is None else "joint"
     why = f"{method.name} looks back {depth} instant{'s' * (depth > 1)}: {per_link} numbers a {each} are read"

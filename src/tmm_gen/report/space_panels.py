@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     import numpy as np
     from matplotlib.figure import Figure
 
+_LABEL = 0.15
+"""Of an axis, beside a panel; inches."""
 _SIDE = 3.0
 """Inches."""
 _NARROWEST = 0.7
@@ -50,6 +52,10 @@ class SpacePanels:
             subplot_kw={"projection": "3d"},
         )
         self._made: Figure = made
+        # room for the labels of the upward axis, of which the layout knows nothing
+        made.set_layout_engine(
+            "constrained", wspace=0.08, rect=(0.0, 0.0, 1.0 - _LABEL / made.get_figwidth(), 1.0)
+        )
         self.axes = list(axes.flat)[:count]
         for panel in axes.flat[count:]:
             self._made.delaxes(panel)  # an unseen one has no place in the layout
