@@ -48,6 +48,7 @@ def test_thesis10_in_closed_form(scene_named: Callable[[str], Scene]) -> None:
     np.testing.assert_allclose([mode.frequency for mode in modes], exact, rtol=1e-12)
     np.testing.assert_allclose([mode.damping_ratio for mode in modes], 5 * exact / 40, rtol=1e-12)
     assert modes[-1].poles[0].imag == 0.0  # overdamped: two real poles
+    assert (modes[0].motion, modes[-1].motion) == ("swings", "creeps back")
     assert modes[-1].poles[0] * modes[-1].poles[1] == pytest.approx(exact[-1] ** 2)
 
 

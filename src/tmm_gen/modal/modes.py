@@ -50,7 +50,11 @@ class Mode:
     @property
     def motion(self) -> str:
         """What becomes of it, in words."""
-        return "falls over" if self.unstable else ("swings" if self.frequency else "turns freely")
+        if self.unstable:
+            return "falls over"
+        if not self.frequency:
+            return "turns freely"
+        return "swings" if self.poles[0].imag else "creeps back"
 
     @property
     def unstable(self) -> bool:
