@@ -96,7 +96,7 @@ def test_a_controller_can_have_a_name_of_its_own(tmm_gen: Call, tmp_path: Path, 
         (["scenes/thesis2.toml"], "has nothing that controllers turn"),
         (["scenes/fall10.toml"], "has nothing that controllers turn"),
         (["scenes/gripper.toml"], "has no [control]"),
-        (["scenes/elbow.toml", "--tune", "pd"], "tunes arms on a hub only"),
+        (["scenes/elbow.toml", "--tune", "mpc", "--out", "new.toml"], "control.payload: cannot be rewritten"),
         (["scenes/swing.toml", "--controller", "mcp"], "There are pd, pd-zv"),
         (
             ["scenes/swing.toml", "--controller", "rti", "--emit", "x", "--name", "swing"],
