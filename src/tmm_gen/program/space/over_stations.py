@@ -19,15 +19,7 @@ from tmm_gen.derive.space.declaration import (
     OMEGA,
     RATE,
 )
-from tmm_gen.derive.space.inward import (
-    ADMITTANCE,
-    IMBALANCE,
-    IMPEDANCE,
-    OWN,
-    RELIEF,
-    TORQUE,
-    YIELD,
-)
+from tmm_gen.derive.space.inward import ADMITTANCE, IMBALANCE, IMPEDANCE, OWN, RELIEF, TORQUE, YIELD
 from tmm_gen.derive.space.newton import ABOUT_AXIS, PUSH
 from tmm_gen.derive.space.newton import CHANGE as ALL_CHANGES
 from tmm_gen.derive.space.outward import COSINE, OWN_FORCE, OWN_MOMENT, SINE
