@@ -64,7 +64,7 @@ RUN = {
         "index": {"console": 1},
         "integrators": {"toml": 1},
         "jax": {"toml": 1},
-        "mpc": {"toml": 3, "c": 2},
+        "mpc": {"toml": 4, "c": 2},
         "mpc-speed": {"toml": 1},
         "planar": {"toml": 1},
         "playground": {"console": 1},

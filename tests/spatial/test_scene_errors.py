@@ -312,13 +312,11 @@ def test_the_line_is_that_of_the_key() -> None:
     )
 
 
-def test_a_table_of_control_of_one_hub_is_refused() -> None:
+def test_a_table_of_control_of_one_hub_serves_one_motor() -> None:
     from tmm_gen.scene.template import template
 
     control = template("a", "planar", control=True).partition("[control]")[2].partition("[emit]")[0]
-    with pytest.raises(SceneError) as caught:
-        parse_scene(f"{ARM}\n[control]{control}")
-    assert [problem.key for problem in caught.value.problems] == ["control.sensors.accelerometer"]
+    assert parse_scene(f"{ARM}\n[control]{control}").control is not None
 
 
 def test_kinds_are_not_mixed_up() -> None:

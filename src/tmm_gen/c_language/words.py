@@ -32,6 +32,7 @@ LIBRARY = _words(
     sin cos sqrt fabs floor fma sinf cosf sqrtf fabsf floorf fmaf
     uint8_t uint16_t uint32_t uint64_t UINT32_MAX UINT64_MAX UINT64_C
     printf memcpy memset memcmp strcmp strncpy calloc free
+    clock_gettime CLOCK_THREAD_CPUTIME_ID
     """
 )
 """What the emitted sources that use members take from the C library, and what its macros are made of in some library:
@@ -39,7 +40,8 @@ LIBRARY = _words(
 
 OWN = _words(
     "SAMPLES ROWS STATES OUTPUTS SUBSTEPS END_ROWS LANES KINDS STEPS PATTERN PAINTED STACK_POINTER TORQUE STAGES "
-    "FUTURE KNOWNS PAST MOTORS TERMS INPUTS UNKNOWNS SENSORS COLUMNS SPAN SQUARES SLOPED WEIGHED DIRECTIONS WALLS"
+    "FUTURE KNOWNS PAST MOTORS TERMS INPUTS UNKNOWNS SENSORS COLUMNS SPAN SQUARES SLOPED WEIGHED DIRECTIONS WALLS "
+    "ANSWERED STEADY BIASES FREE_KNOWNS SHIFT_KNOWNS TORQUES TIMER_CTRL TIMER_RELOAD TIMER_VALUE"
 )
 """Macros of the emitted sources themselves, controllers and test programs included."""
 

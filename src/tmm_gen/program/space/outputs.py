@@ -63,6 +63,7 @@ def _together(layout: SpaceLayout) -> list[list[ArmOutput]]:
     """Return outputs by what is read together: the same of several frames, on one way out to the last of them."""
     found: list[list[ArmOutput]] = []
     for output in layout.arm.outputs:
+        # whatever it is: like outputs walk the same way
         group = next((g for g in found if g[0].of == output.of and _one_way(layout, [*g, output])), None)
         if group is None:
             found.append([output])
