@@ -38,13 +38,11 @@ LANES = ((4, "float64"), (8, "float64"), (16, "float32"))
 ARMS = 512
 SHARED = 4096
 """Arms that threads share."""
-STEPS = 1000
-"""That they take then, or fewer where that takes too long."""
 ROUNDS = 15
 _SECONDS = 0.05
 """Of processor time, about, that a round of a batch takes."""
-_LONGEST = 0.4
-"""Seconds, about, that one thread takes for what threads share."""
+_WHOLE = 0.2
+"""Seconds, about, that one thread takes for a whole call with what threads share."""
 _BUSY = 0.5
 """Mean load of the machine at the start above which a second thread has no processor of its own."""
 
@@ -76,7 +74,7 @@ def measured(scene: Scene, rounds: int, idle: bool) -> dict[str, object]:
         steps *= 2
     each = spent / steps
     steps = max(10, int(_SECONDS / each))
-    many_steps = max(100, min(STEPS, int(_LONGEST * ARMS / SHARED / each)))
+    many_steps = max(100, int(_WHOLE * ARMS / SHARED / each))
     together, ratios, gains = [], [], []
     for _ in range(rounds):
         one = alone()
@@ -99,7 +97,7 @@ def told(rows: list[dict[str, object]], rounds: int) -> str:
     """Return the rows as a table of the page."""
     lines = [
         f"Medians of {rounds} rounds of {ARMS} arms; times are of one thread. Two threads: how many times as fast as "
-        f"one they are with {SHARED} arms and {STEPS} steps (100 or more where these would take long), whole calls. "
+        f"one they are with {SHARED} arms, whole calls of {_WHOLE:g} s or, where 100 steps take longer, more. "
         "A dash: others were busy on this machine.",
         "",
         "| scene | side by side | ns per arm, link and step | over one after another | two threads |",

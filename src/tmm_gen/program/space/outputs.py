@@ -7,16 +7,9 @@ from collections.abc import Callable, Sequence
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS, Kind, Past
-from tmm_gen.derive.space.base_pose import AT, GOES, SPINS, STANDS, facing_line, quaternion_line
+from tmm_gen.derive.space.base_pose import facing_line, quaternion_line
 from tmm_gen.derive.space.base_pose import velocity_lines as base_velocity
-from tmm_gen.derive.space.declaration import (
-    AXES,
-    BASE_ACCEL,
-    BASE_PLACE,
-    BASE_VELOCITY,
-    OMEGA,
-    VELOCITY,
-)
+from tmm_gen.derive.space.declaration import AXES, OMEGA, VELOCITY
 from tmm_gen.derive.space.pattern import Pattern
 from tmm_gen.derive.space.pose import (
     FACING,
@@ -32,15 +25,17 @@ from tmm_gen.derive.space.pose import (
 from tmm_gen.derive.space.reaction import axis_lines, based_lines, passed_lines
 from tmm_gen.derive.station.lets import Line, Update
 from tmm_gen.program.arm.loads import exactly
+from tmm_gen.program.space.base_values import base_values, moved
 from tmm_gen.program.space.bodies import Bodies
-from tmm_gen.program.space.layout import BASE_MOTION, SpaceLayout, kernel_columns
+from tmm_gen.program.space.layout import SpaceLayout
 from tmm_gen.program.space.over_stations import MOTION
 from tmm_gen.program.space.reactions import handed_in
+from tmm_gen.program.space.read_together import together
 from tmm_gen.program.space.turns import quaternion_of
 from tmm_gen.program.space.walks import SpaceWalks, outward
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Variable
-from tmm_gen.scene.spatial.arm import ArmInput, ArmOutput, Frame
+from tmm_gen.scene.spatial.arm import ArmOutput, Frame
 
 _TOTAL = sp.Symbol("total", real=True)
 _FORCES = sp.Matrix(sp.symbols("total_x total_y total_z", real=True))
@@ -54,28 +49,9 @@ def output_routine(layout: SpaceLayout, bodies: Bodies) -> Routine:
             f"output {', '.join(o.name for o in group)}: {group[0].of.replace('_', ' ')}",
             tuple(readings.statements(group)),
         )
-        for group in _together(layout)
+        for group in together(layout)
     )
     return Routine("output", "Read the outputs off the state.", sections)
-
-
-def _together(layout: SpaceLayout) -> list[list[ArmOutput]]:
-    """Return outputs by what is read together: the same of several frames, on one way out to the last of them."""
-    found: list[list[ArmOutput]] = []
-    for output in layout.arm.outputs:
-        # whatever it is: like outputs walk the same way
-        group = next((g for g in found if g[0].of == output.of and _one_way(layout, [*g, output])), None)
-        if group is None:
-            found.append([output])
-        else:
-            group.append(output)
-    return found
-
-
-def _one_way(layout: SpaceLayout, outputs: list[ArmOutput]) -> bool:
-    """Whether frames that joints carry lie behind each other."""
-    joints = [o.frame.joint if o.frame else 0 for o in outputs]
-    return min(joints) > 0 and {j - 1 for j in joints} <= layout.tree.inward_of(max(joints) - 1)
 
 
 class _Readings:
@@ -108,42 +84,7 @@ class _Readings:
     def _walks(self) -> SpaceWalks:
         motion = {MOTION[k]: self._state(k) for k in KINDS}
         gains = (sp.S.Zero, sp.S.Zero, sp.S.One)
-        return SpaceWalks(self._layout, self._bodies, motion, gains, base=self._base_values)
-
-    @property
-    def _base_values(self) -> dict[sp.Symbol, sp.Expr]:
-        """What symbols of a base that floats, or is moved as given, stand for."""
-        base = self._layout.base
-        if base is None:
-            told = zip(
-                (BASE_PLACE, BASE_VELOCITY, BASE_ACCEL), ("place", "velocity", "acceleration"), strict=True
-            )
-            return {
-                s: self._moved(word, k)
-                for symbols, word in told
-                for k, s in enumerate(symbols)
-                if self._along[k]
-            }
-        symbols = (*AT, *GOES, *STANDS, *SPINS)
-        values = (
-            *base.newest("q", base.place),
-            *base.newest("v", base.place),
-            *base.start,
-            *base.newest("v", base.omega),
-        )
-        return dict(zip(symbols, values, strict=True))
-
-    @property
-    def _along(self) -> tuple[ArmInput | None, ...]:
-        return self._layout.arm.along
-
-    def _moved(self, word: str, k: int) -> sp.Expr:
-        """Return the place, velocity or acceleration of a base along an axis, as it is moved; zero where it is not."""
-        item = self._along[k]
-        if item is None:
-            return sp.Integer(0)
-        order = [name for name, _ in BASE_MOTION].index(word)
-        return self._layout.held[kernel_columns(item)[order]].ref
+        return SpaceWalks(self._layout, self._bodies, motion, gains, base=base_values(self._layout))
 
     def _at_base(self, lines: tuple[Line, ...]) -> tuple[Line, ...]:
         """Return lines that begin a walk at a base that floats; none at one that rests."""
@@ -212,7 +153,7 @@ class _Readings:
         if self._rests(frame):
             at = sp.Matrix([exactly(r) for r in frame.at])
             return [
-                Assign(t, v + self._moved("place", k))
+                Assign(t, v + moved(self._layout, "place", k))
                 for k, (t, v) in enumerate(zip(targets, at, strict=True))
             ]
 
@@ -238,7 +179,7 @@ class _Readings:
     def _velocity(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
         frame = _frame(output)
         if self._rests(frame):
-            return [Assign(t, self._moved("velocity", k)) for k, t in enumerate(targets)]
+            return [Assign(t, moved(self._layout, "velocity", k)) for k, t in enumerate(targets)]
 
         def lines(pattern: Pattern) -> Sequence[Line]:
             return (*velocity_lines(pattern), *facing_lines(pattern))
