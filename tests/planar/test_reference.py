@@ -133,3 +133,17 @@ def test_positions_are_read_off_angles(unlike: Callable[..., Scene]) -> None:
     lengths, angles = [link.length for link in scene.links], np.array(scene.initial.angles)
     assert found["position_of_tip_x"][0] == pytest.approx(lengths @ np.cos(angles))
     assert found["position_of_tip_y"][0] == pytest.approx(lengths @ np.sin(angles))
+
+
+def test_what_acts_until_a_jump_is_all_that_a_step_to_it_sees() -> None:
+    def residual(t: np.ndarray, _q: np.ndarray, _v: np.ndarray, a: np.ndarray) -> np.ndarray:
+        return a - np.where(t < 0.3, 1.0, -1.0)[:, None]
+
+    def slopes(t: np.ndarray, *_: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        none = np.zeros((len(t), 1, 1))
+        return none, none, none + 1.0
+
+    found = integrate(residual, slopes, np.zeros(1), np.zeros(1), np.array([0.0, 0.3, 1.0]))
+    q, v, _ = found.at(np.array([0.3, 1.0]))
+    np.testing.assert_allclose(q[:, 0], [0.3**2 / 2, 0.3**2 / 2 + 0.3 * 0.7 - 0.7**2 / 2], atol=1e-15)
+    np.testing.assert_allclose(v[:, 0], [0.3, 0.3 - 0.7], atol=1e-15)

@@ -109,7 +109,7 @@ def integrate(
             size = left if last else min(h, 0.5 * left)
             if size < _SMALLEST * span:
                 raise ReferenceError(f"the reference cannot pass t = {now:g} s")
-            solved = _step(residual, slopes, now, size, q, v, guess)
+            solved = _step(residual, slopes, now, size, goal, q, v, guess)
             if solved is None:
                 h, guess = 0.25 * size, None
                 continue
@@ -131,15 +131,26 @@ def integrate(
 
 
 def _step(
-    residual: Residual, slopes: Slopes, t: float, h: float, q: Array, v: Array, guess: Array | None
+    residual: Residual,
+    slopes: Slopes,
+    t: float,
+    h: float,
+    goal: float,
+    q: Array,
+    v: Array,
+    guess: Array | None,
 ) -> tuple[Array, float] | None:
-    """Return the coefficients of the accelerations over a step and the size of the last ones; None if lost."""
+    """Return the coefficients of the accelerations over a step and the size of the last ones; None if lost.
+
+    A node at `goal` has what acts until then: an input may jump there.
+    """
     x, _, inverse, once, twice = _nodes()
     s, n = len(x), len(q)
-    instants = t + 0.5 * h * (x + 1.0)
+    passed = 0.5 * h * (x + 1.0)
+    instants = np.minimum(t + passed, np.nextafter(goal, -np.inf))
     a = np.zeros((s, n)) if guess is None else np.tile(guess, (s, 1))
     to_v, to_q = h * once @ inverse, h * h * twice @ inverse
-    drift = q + np.outer(instants - t, v)
+    drift = q + np.outer(passed, v)
     before = np.inf
     for _ in range(_ITERATIONS):
         at_q, at_v = drift + to_q @ a, v + to_v @ a
