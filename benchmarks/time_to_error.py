@@ -291,7 +291,11 @@ def measure(
         for name, timer in timers.items():
             times[name].append(timer())
     best = min(
-        ((statistics.median(t), name) for name, t in times.items() if name.startswith("peer") == beside_peers),
+        (
+            (statistics.median(t), name)
+            for name, t in times.items()
+            if name.startswith("peer") == beside_peers
+        ),
         default=(math.nan, "none"),
     )
     rows: list[dict[str, object]] = []
