@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
+from tmm_gen.modal.creeping import creeping_pairs
 from tmm_gen.modal.linear import Linear, Resistance
-from tmm_gen.modal.undamped import Undamped, undamped_modes
+from tmm_gen.modal.undamped import DENSE, undamped_modes
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -33,24 +34,59 @@ _MOST_POLISHED = 150
 _NEAR = 1e-3
 """Relative distance within which polishing may move a pole: further away lies another."""
 
+_OWN = 0.9
+"""Share that an undamped mode, and those as fast as it, must have of a damped one that it gives its shape to."""
+
+_AS_FAST = 0.01
+"""Relative distance of frequencies of undamped modes that even light damping may mix."""
+
 
 @dataclass(frozen=True, eq=False)
 class Damped:
-    """Two poles for each of the lowest undamped modes.
+    """Two poles for each of the lowest modes.
 
     Parameters
     ----------
     pairs : list of (complex, complex)
-        1/s; a conjugate pair, or two real poles, the slower one first.
-    undamped : Undamped
-        The modes they grow out of.
+        1/s; a conjugate pair, or two real poles, the slower one first. Their products do not fall.
+    shapes : array, (d, m)
+        Of the undamped modes that they grow out of, or their own where damping mixes those: the real part at the phase
+        where it is largest, of two real poles that of the slower one.
+    grown : list of (int or None)
+        Number of the undamped mode, counted from 0, whose shape each has; None where it has its own.
     bounds : array, (m,)
         Estimated relative error of each pair, from residuals.
     """
 
     pairs: list[Pair]
-    undamped: Undamped
+    shapes: Array
+    grown: list[int | None]
     bounds: Array
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """The lowest pairs in a space.
+
+    Parameters
+    ----------
+    pairs : list of (complex, complex)
+        The lowest first.
+    numbers : array of int, (m,)
+        Of the undamped modes they were given to.
+    bounds : array, (m,)
+        Of their relative errors.
+    shapes : list of (array or None)
+        Their own, (d,), where damping mixes undamped modes.
+    bends : array, (d, k)
+        What the space does not balance.
+    """
+
+    pairs: list[Pair]
+    numbers: NDArray[np.intp]
+    bounds: Array
+    shapes: list[Array | None]
+    bends: Array
 
 
 def damped_modes(linear: Linear, count: int | None = None) -> Damped:
@@ -67,24 +103,30 @@ def damped_modes(linear: Linear, count: int | None = None) -> Damped:
     if time is not None:
         modes = undamped_modes(linear, count)
         pairs = [quadratic(square, time * square) for square in modes.squares.tolist()]
-        return Damped(pairs, modes, modes.bounds)
+        return Damped(pairs, modes.shapes, list(range(len(pairs))), modes.bounds)
     size = linear.parts.size
     wanted = size if count is None else min(count, size)
-    basis = undamped_modes(linear, min(size, 2 * wanted + 20))
-    lowest = Undamped(basis.squares[:wanted], basis.shapes[:, :wanted], basis.bounds[:wanted])
+    # damping may make any undamped mode one of the slowest: of small arms all are looked at
+    basis = undamped_modes(linear, size if size <= DENSE else min(size, 2 * wanted + 20))
     springs = linear.springs
     shapes = basis.shapes
-    pairs, bounds, bends = _projected(linear, springs, shapes, wanted)
+    found = _projected(linear, springs, shapes, wanted)
     for _ in range(_ROUNDS):
-        worst = float(np.max(bounds, initial=0.0))
+        worst = float(np.max(found.bounds, initial=0.0))
         if worst <= _KNOWN or shapes.shape[1] == size:
             break
-        shapes = _widened(linear, shapes, bends)
-        found, errors, bends = _projected(linear, springs, shapes, wanted)
-        if float(np.max(errors)) > 0.5 * worst:  # rounding is all that is left
+        shapes = _widened(linear, shapes, found.bends)
+        better = _projected(linear, springs, shapes, wanted)
+        if float(np.max(better.bounds)) > 0.5 * worst:  # rounding is all that is left
             break
-        pairs, bounds = found, errors
-    return Damped(pairs, lowest, np.maximum(bounds, lowest.bounds))
+        found = better
+    chosen, grown, bounds = [], [], []
+    for number, own, bound in zip(found.numbers.tolist(), found.shapes, found.bounds.tolist(), strict=True):
+        known = own is None and number < len(basis.squares)
+        grown.append(number if known else None)
+        chosen.append(basis.shapes[:, number] if own is None else own)
+        bounds.append(max(bound, float(basis.bounds[number])) if known else bound)
+    return Damped(found.pairs, np.stack(chosen, axis=1), grown, np.array(bounds))
 
 
 def quadratic(square: float, twice: float) -> Pair:
@@ -99,10 +141,8 @@ def quadratic(square: float, twice: float) -> Pair:
     return complex(square / large), complex(large)
 
 
-def _projected(
-    linear: Linear, springs: Resistance, shapes: Array, wanted: int
-) -> tuple[list[Pair], Array, Array]:
-    """Return the poles in a space, their errors, and the bends that the space does not balance."""
+def _projected(linear: Linear, springs: Resistance, shapes: Array, wanted: int) -> _Found:
+    """Return the lowest pairs in a space."""
     from scipy.linalg import eigh  # slow to import
 
     bends = springs.bends(shapes)
@@ -119,28 +159,49 @@ def _projected(
     squares[loose] = 0.0
     stiffness, damping = np.diag(squares), turned.T @ (0.5 * (damping + damping.T)) @ turned
     guesses = [quadratic(*each) for each in zip(squares.tolist(), np.diag(damping).tolist(), strict=True)]
-    pairs = _paired(stiffness, damping, guesses, _still(damping, loose))[:wanted]
-    errors, missing = np.zeros(wanted), []
+    every = _paired(stiffness, damping, guesses, loose)
+    order = np.argsort([(one * other).real for one, other in every], kind="stable")[:wanted]
+    errors, missing = np.zeros(len(order)), []
     polished: list[Pair] = []
-    for k, pair in enumerate(pairs):
+    own: list[Array | None] = []
+    for k, number in enumerate(order.tolist()):
+        pair = every[number]
         if len(squares) > _MOST_POLISHED:
             polished.append(pair)
+            own.append(None)
             continue
-        both = []
+        both, vectors = [], []
         for pole in pair[:1] if pair[0].imag else pair:
             if pole == 0.0:
                 both.append(pole)
+                vectors.append(np.eye(len(squares), dtype=complex)[number])
                 continue
             better, vector = _polish(stiffness, damping, pole)
             both.append(better)
+            vectors.append(vector)
             shape = shapes @ (turned @ vector)
             slope = abs(better * (2.0 * better * (vector @ vector) + vector @ damping @ vector))
             left = _left(linear, springs, shape, better)
             errors[k] = max(errors[k], float(np.linalg.norm(left)) * _weight(springs, shape, slope))
             missing += [left.real, left.imag] if better.imag else [left.real]
         polished.append((both[0], both[0].conjugate()) if pair[0].imag else (both[0], both[1]))
+        alike = _alike(squares, number, vectors[0])
+        own.append(None if alike else shapes @ (turned @ _at_its_largest(vectors[0])))
     found = np.array(missing).T if missing else np.zeros((len(shapes), 0))
-    return polished, errors, springs.angles(springs.signs * found)
+    return _Found(polished, order, errors, own, springs.angles(springs.signs * found))
+
+
+def _alike(squares: Array, number: int, vector: Complex) -> bool:
+    """Return whether a damped mode moves as the undamped one does, or as those as fast as it together."""
+    rates = np.sqrt(np.abs(squares))
+    near = (np.abs(rates - rates[number]) <= _AS_FAST * rates[number]) & (squares * squares[number] >= 0.0)
+    shares = np.abs(vector) ** 2
+    return bool(np.sum(shares[near]) >= _OWN * np.sum(shares))
+
+
+def _at_its_largest(vector: Complex) -> Array:
+    """Return the real part at the phase where it is largest, in coordinates of unit mass."""
+    return np.asarray((vector * np.exp(-0.5j * np.angle(vector @ vector))).real, float)
 
 
 def _still(damping: Array, loose: NDArray[np.intp]) -> int:
@@ -196,7 +257,7 @@ def _widened(linear: Linear, shapes: Array, more: Array) -> Array:
     return np.concatenate([shapes, added], axis=1)
 
 
-def _paired(stiffness: Array, damping: Array, guesses: list[Pair], still: int) -> list[Pair]:
+def _paired(stiffness: Array, damping: Array, guesses: list[Pair], loose: NDArray[np.intp]) -> list[Pair]:
     """Give each undamped mode the two poles that belong to it."""
     from scipy.linalg import eig
     from scipy.optimize import linear_sum_assignment
@@ -205,13 +266,20 @@ def _paired(stiffness: Array, damping: Array, guesses: list[Pair], still: int) -
     system = np.zeros((2 * size, 2 * size))
     system[:size, size:] = np.eye(size)
     system[size:, :size], system[size:, size:] = -stiffness, -damping
+    still = _still(damping, loose)
     poles = eig(system, right=False)
     poles[np.argsort(np.abs(poles))[:still]] = 0.0
     wanted = np.array([pole for pair in guesses for pole in pair])
     _, order = linear_sum_assignment(_apart(wanted, poles))
     matched = poles[order].reshape(-1, 2)
     if np.any(np.abs(matched[:, 0] - matched[:, 1].conj()) * (np.abs(matched.imag).max(axis=1) > 0.0)):
-        matched = _whole_pairs(poles, np.array(guesses))
+        poles, vectors = eig(system)
+        poles[np.argsort(np.abs(poles))[:still]] = 0.0
+        real = poles.imag == 0.0
+        upper, lower = vectors[:size, real].real, vectors[size:, real].real
+        moved = np.where(np.abs(poles[real]) > 1.0, lower, upper)  # the larger half has more digits
+        pairs = creeping_pairs(poles[real].real, moved, damping, loose)
+        matched = _whole_pairs(poles[poles.imag > 0.0], pairs, np.array(guesses))
     return [_conjugates(complex(one), complex(other)) for one, other in matched]
 
 
@@ -222,17 +290,27 @@ def _apart(wanted: Complex, poles: Complex) -> Array:
     return np.divide(distance, scale, out=np.zeros_like(distance), where=scale > 0.0)
 
 
-def _whole_pairs(poles: Complex, guesses: Complex) -> Complex:
-    """Give modes conjugate pairs first, as damping couples them so much that the nearest poles are none."""
+def _whole_pairs(upper: Complex, pairs: Array, guesses: Complex) -> Complex:
+    """Give modes whole pairs, as damping couples them so much that the nearest poles are none.
+
+    Parameters
+    ----------
+    upper : array, (a,)
+        Poles with a positive imaginary part; these are given first.
+    pairs : array, (b, 2)
+        Real ones.
+    guesses : array, (a + b, 2)
+        Those of each undamped mode by itself.
+    """
     from scipy.optimize import linear_sum_assignment
 
     found = np.zeros_like(guesses)
-    upper, real = poles[poles.imag > 0.0], poles[poles.imag == 0.0]
     modes, order = linear_sum_assignment(_apart(guesses[:, 0], upper))
     found[modes, 0], found[modes, 1] = upper[order], upper[order].conj()
     left = np.setdiff1d(np.arange(len(guesses)), modes)
-    _, order = linear_sum_assignment(_apart(guesses[left].ravel(), real))
-    found[left] = real[order].reshape(-1, 2)
+    apart = _apart(guesses[left, 0], pairs[:, 0]) + _apart(guesses[left, 1], pairs[:, 1])
+    rows, order = linear_sum_assignment(apart)
+    found[left[rows]] = pairs[order]
     return found
 
 

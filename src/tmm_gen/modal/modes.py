@@ -31,9 +31,12 @@ class Mode:
     poles : tuple of 2 complex
         1/s; a conjugate pair, or two real ones.
     shape : array, (d,)
-        Angles of the free coordinates in the undamped mode, largest one 1.
+        Angles of the free coordinates in the undamped mode, largest one 1; where damping mixes undamped modes, in the
+        damped one at the phase where they are largest, of two real poles at the slower one.
     bound : float
         On the relative error of the frequency, estimated from the residuals of shape and poles.
+    undamped : int or None
+        Number of the undamped mode, counted from 0, whose shape it has; None where there is none.
     """
 
     frequency: float
@@ -41,6 +44,7 @@ class Mode:
     poles: tuple[complex, complex]
     shape: Array
     bound: float = 0.0
+    undamped: int | None = None
 
     @property
     def hertz(self) -> float:
@@ -63,10 +67,11 @@ class Mode:
 
 
 def find_modes(linear: Linear, count: int | None = None) -> tuple[Mode, ...]:
-    """Return the lowest modes.
+    """Return the modes of the lowest natural frequencies, in ascending order; what falls over comes first.
 
     Where damping does not couple the undamped modes (it is proportional to stiffness), each has its own quadratic
-    equation; else each undamped mode is given the pair of poles nearest to its own.
+    equation; else each undamped mode is given the pair of poles nearest to its own, whatever pair that is. Two real
+    poles count by the root of their product, as the frequency of a motion by itself does not depend on its damper.
 
     Parameters
     ----------
@@ -76,11 +81,8 @@ def find_modes(linear: Linear, count: int | None = None) -> tuple[Mode, ...]:
         How many; all by default.
     """
     found = damped_modes(linear, count)
-    shapes = found.undamped.shapes.T
-    return tuple(
-        _mode(pair, shape, bound)
-        for pair, shape, bound in zip(found.pairs, shapes, found.bounds.tolist(), strict=True)
-    )
+    each = zip(found.pairs, found.shapes.T, found.bounds.tolist(), found.grown, strict=True)
+    return tuple(_mode(*one) for one in each)
 
 
 def modes_up_to(linear: Linear, limit: float) -> tuple[Mode, ...]:
@@ -97,14 +99,16 @@ def modes_up_to(linear: Linear, limit: float) -> tuple[Mode, ...]:
     while True:
         squares = undamped_modes(linear, count).squares
         if count == linear.parts.size or squares[-1] > limit**2:
-            return find_modes(linear, count)
+            found = find_modes(linear, count)
+            if count == linear.parts.size or found[-1].frequency > limit:
+                return found
         count = min(2 * count, linear.parts.size)
 
 
-def _mode(poles: tuple[complex, complex], shape: Array, bound: float) -> Mode:
+def _mode(poles: tuple[complex, complex], shape: Array, bound: float, undamped: int | None) -> Mode:
     product, total = (poles[0] * poles[1]).real, (poles[0] + poles[1]).real
     scaled = shape / shape[np.argmax(np.abs(shape))]
     if product > 0.0:
         frequency = float(np.sqrt(product))
-        return Mode(frequency, float(0.0 - total / (2.0 * frequency)), poles, scaled, bound)
-    return Mode(0.0, None, poles, scaled, bound)
+        return Mode(frequency, float(0.0 - total / (2.0 * frequency)), poles, scaled, bound, undamped)
+    return Mode(0.0, None, poles, scaled, bound, undamped)

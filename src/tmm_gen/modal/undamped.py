@@ -16,7 +16,7 @@ from tmm_gen.modal.linear import Linear, Resistance
 
 Array = NDArray[np.float64]
 
-_DENSE = 60
+DENSE = 60
 """Free angles up to which, or where a third of all modes is asked for, all modes are found at once."""
 
 _MOST_DENSE = 2000
@@ -63,7 +63,7 @@ def undamped_modes(linear: Linear, count: int | None = None) -> Undamped:
     wanted = size if count is None else min(count, size)
     turning = _turning(linear, springs)
     sought = wanted - turning.shape[1]
-    few = size > _DENSE and 3 * (sought + springs.negative) < size
+    few = size > DENSE and 3 * (sought + springs.negative) < size
     found = _sorted(linear, springs, turning, sought, few)
     if few and size <= _MOST_DENSE and np.max(found.bounds, initial=0.0) > KNOWN:
         # one very soft joint hides the others from an iteration on the whole
