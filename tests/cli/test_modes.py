@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from pathlib import Path
 
@@ -128,3 +129,22 @@ def test_it_refuses(words: list[str], said: str, folder: Path, capsys: pytest.Ca
 def test_it_does_not_write_over_a_folder(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "taken.png").mkdir()
     assert "is a directory" in refuse(THESIS2, "--plot", "taken.png", capsys=capsys)
+
+
+def test_a_hub_that_a_damper_holds(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Its modes are in order, and those that damping makes have no mode of the undamped continuous beam beside them."""
+    text = ARM.format(gravity=0.0).replace(
+        'kind = "clamp"', 'kind = "motor"\ninertia = 0.01\ndamping = 300.0'
+    )
+    (folder / "held.toml").write_text(text)
+    shown = json.loads(succeed("held.toml", "--count", "5", "--plot", "held.png", "--json", capsys=capsys))
+    rows = shown["rows"]
+    assert rows[0]["motion"] == "turns freely"
+    assert all(a["frequency_hz"] < b["frequency_hz"] for a, b in itertools.pairwise(rows))
+    mixed = [row for row in rows if row["exact_hz"] is None]
+    assert mixed[0] == rows[1]
+    assert all(row["error_percent"] is None and row["straight_hz"] is None for row in mixed)
+    assert (folder / "held.png").stat().st_size > 10_000
+    clamped = json.loads(succeed("straight.toml", "--count", "4", "--json", capsys=capsys))["rows"]
+    for held, still in zip(rows[1:], clamped, strict=True):
+        assert held["frequency_hz"] == pytest.approx(still["frequency_hz"], rel=1e-4)

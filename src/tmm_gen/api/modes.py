@@ -36,7 +36,7 @@ _COLUMNS = {
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Modes:
-    """The lowest modes; ``modes[0]`` is the slowest.
+    """The modes of the lowest natural frequencies, in ascending order; ``modes[0]`` is the slowest.
 
     Parameters
     ----------
@@ -130,8 +130,8 @@ def modes_of(scene: Scene, count: int, inputs: Mapping[str, float], start: Array
 
     arm = resting_arm(scene, inputs, start)
     found = find_modes(matrices(arm), count)
-    beside = Beside.of(arm, len(found))
-    rows = [mode_row(number, mode) | beside.row(number) for number, mode in enumerate(found)]
+    beside = Beside.of(arm, found)
+    rows = [mode_row(number, mode) | beside.row(mode) for number, mode in enumerate(found)]
 
     def figure() -> Figure:
         from tmm_gen.modal.picture import mode_figure

@@ -73,8 +73,8 @@ def modes(
 
         arm = resting_arm(loaded, inputs, start)
         found = find_modes(matrices(arm), count)
-        beside = Beside.of(arm, len(found))
-        rows = [mode_row(number, mode) | beside.row(number) for number, mode in enumerate(found)]
+        beside = Beside.of(arm, found)
+        rows = [mode_row(number, mode) | beside.row(mode) for number, mode in enumerate(found)]
         files = _draw(picture, arm, found, beside)
     _show(loaded, arm, rows, beside, files, json_mode)
 

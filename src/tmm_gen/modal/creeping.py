@@ -16,8 +16,8 @@ def creeping_pairs(poles: Array, vectors: Array, damping: Array, loose: NDArray[
 
     Between minus and plus infinity as many eigenvalues of the symmetric matrix fall below zero as rise again, so that
     half of all real poles have a falling one, the fast poles, half a rising one. The same dampers brake a motion while
-    it loses its speed (fast) and while it creeps back (slow): poles whose vectors are alike in what damping does to them
-    belong together.
+    it loses its speed (fast) and while it creeps back (slow): poles whose vectors are alike to the dampers belong
+    together.
 
     Parameters
     ----------

@@ -61,7 +61,8 @@ def mode_figure(arm: LinearArm, modes: Sequence[Mode], exact: tuple[BeamArm, Arr
             if not shaped:
                 _draw_chain(panel, arm, mode)
             elif _is_straight(arm):
-                omega = None if exact is None or number >= len(exact[1]) else float(exact[1][number])
+                like = mode.undamped
+                omega = None if exact is None or like is None else float(exact[1][like])
                 _draw_straight(panel, arm, mode, None if exact is None else exact[0], omega)
             else:
                 _draw_bent(panel, arm, mode)

@@ -34,7 +34,7 @@ class SmallMotion:
     linear : Linear
         About rest.
     modes : tuple of Mode
-        Increasing in undamped frequency.
+        Increasing in natural frequency.
     mixed : bool
         Whether damping couples the undamped modes, so that a step does not fall apart into modes.
     rounds : Rounds or None
