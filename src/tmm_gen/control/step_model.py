@@ -286,6 +286,22 @@ class StepModel:
         return state
 
     def jacobian(self, state: Array, torque: Array) -> tuple[Array, Array]:
-        """Return ``dF/dx``, (size, size), and ``dF/dw``, (size, 2 m), where the same torques, (m,), act throughout."""
-        _, by_state, by_torques = self.sample_slopes(state, np.concatenate([torque, torque]))
-        return np.array(by_state), np.array(by_torques)
+        """Return ``dF/dx``, (size, size), and ``dF/dw``, (size, 2 m), of an arm held still where it is.
+
+        All steps of the sample are linearised about one state, as the emitted C does it: where the torques do not hold
+        the arm there it would move on within the sample.
+
+        Parameters
+        ----------
+        state : array, (size,)
+            Without rates.
+        torque : array, (m,)
+            That acts throughout, N m.
+        """
+        _, by_state, by_torque = self.step_slopes(state, torque)
+        transition, before, then = np.eye(self.size), np.zeros_like(by_torque), np.zeros_like(by_torque)
+        for share in self.delay.shares(self.problem.substeps):
+            transition = by_state @ transition
+            before = by_state @ before + share * by_torque
+            then = by_state @ then + (1.0 - share) * by_torque
+        return transition, np.hstack([before, then])

@@ -31,7 +31,7 @@ pytestmark = pytest.mark.compiler
 
 HEAVIER = replace(CONDITIONS[1], payload=1.2, friction=0.02)
 WARNINGS = ("-pedantic", "-Wall", "-Wextra", "-Wshadow", "-Wundef", "-Werror")
-DAQP = 2e-5
+DAQP = 1e-10
 """Both solve the same program to its tolerance, N m."""
 
 
