@@ -25,6 +25,9 @@ be three per input, and half as much memory again. Where more would be, soft one
 anyway, and give way."""
 ITERATIONS_PER_INPUT = 5
 """Iterations of the solver a sample may take, per input."""
+ITERATIONS_PER_RATE = 10
+"""The same, per sample of the horizon and hub whose rate is bounded: such bounds are met along most of a way, and the
+solver goes to and fro between them and those of torques and of their changes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,8 +84,9 @@ def program_data(problem: ControlProblem, condensed: Condensed) -> ProgramData:
     soft = [0.0] * problem.count + [1.0 / kind.weight for kind in kinds]
     # in each sample a motor has three kinds of bounds, a wall one, and a hub's rate: without room for them the solver
     # begins cold again
-    more = len(problem.keeps) + np.count_nonzero(np.isfinite(problem.hub_rate))
-    met = condensed.inputs + more * count / 3.0
+    walls, rates = len(problem.keeps), int(np.count_nonzero(np.isfinite(problem.hub_rate)))
+    met = condensed.inputs + (walls + rates) * count / 3.0
+    iterations = ITERATIONS_PER_INPUT * (condensed.inputs + walls * count / 3.0)
     return ProgramData(
         horizon=count,
         motors=problem.count,
@@ -93,5 +97,5 @@ def program_data(problem: ControlProblem, condensed: Condensed) -> ProgramData:
         softness=np.repeat(soft, count),
         stopping=condensed.stopping,
         capacity=round(ACTIVE_PER_INPUT * met),
-        iteration_limit=round(ITERATIONS_PER_INPUT * met),
+        iteration_limit=round(iterations + ITERATIONS_PER_RATE * rates * count),
     )

@@ -40,7 +40,7 @@ def compiled(bench: Bench, kind: str, real: str = "float64") -> EmittedControlle
 
 
 @pytest.mark.parametrize(
-    ("kind", "changes"), [("mpc-links", LATE), ("mpc-modes", BOUNDED), ("mpc-modes", FELT)]
+    ("kind", "changes"), [("mpc-links", BOUNDED), ("mpc-modes", BOUNDED), ("mpc-modes", FELT)]
 )
 def test_torques_are_those_of_python(kind: str, changes: dict[str, object], two: Bench) -> None:
     """Flags at random, all encoders lost for long, bounds told at run time, which are kept throughout."""
