@@ -68,6 +68,12 @@ def test_copies_are_replaced_by_what_they_copy() -> None:
     assert contract(before) == routine(loop(Assign(X, KEPT.at() + 1), Assign(KEPT.at(), 2 * X)))
 
 
+def test_a_copy_back_into_what_was_copied_goes() -> None:
+    """Compilers warn of `x = x`."""
+    before = routine(loop(Assign(Y, X), Assign(KEPT.at(), 2 * Y), Assign(X, Y)))
+    assert contract(before) == routine(loop(Assign(KEPT.at(), 2 * X)))
+
+
 def test_a_copy_of_what_changes_stays() -> None:
     before = routine(loop(Assign(Y, KEPT.at()), Assign(KEPT.at(), KEPT.at() + 1), Assign(KEPT.at(1), Y)))
     assert contract(before) == before

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from operator import is_
 
 import sympy as sp
 
@@ -36,7 +37,7 @@ def _map_blocks(
         if not isinstance(statement, Loop):
             return statement
         body = change(statement.body)
-        if all(new is old for new, old in zip(body, statement.body, strict=True)):
+        if len(body) == len(statement.body) and all(map(is_, body, statement.body)):
             return statement  # and caches know it at once
         return replace(statement, body=body)  # type: ignore[arg-type]
 
@@ -95,6 +96,8 @@ def _propagate_copies(block: tuple[Statement, ...]) -> tuple[Statement, ...]:
             continue
         if _keeps_order(statement.value, copies):
             statement = _rename(statement, copies, target=False)
+        if isinstance(statement, Assign) and statement.value == statement.target:
+            continue  # a copy of what it was a copy of: nothing changes
         changed.append(statement)
         if isinstance(statement, Assign):
             target = statement.target
