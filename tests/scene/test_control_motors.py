@@ -63,6 +63,12 @@ hub = [-1.5, 1.5]
 """
 
 
+BEAM = ARM.replace('[[link]]\nname = "fore"', '[[beam]]\nname = "fore"').replace(
+    "mass = 0.5\ninertia = 0.01", "bending_stiffness = 3.0\nmass_per_length = 0.2\nlinks = 2"
+)
+"""The same arm whose forearm bends."""
+
+
 def test_what_is_told_is_told_of_each_motor_in_the_order_of_the_arm() -> None:
     problem = control_problem(parse_scene(ARM + CONTROL))
     assert problem.motors.names == ("first", "second")
@@ -109,12 +115,25 @@ def test_one_number_is_for_all() -> None:
             "control.sensors.strain.hip",
             "is not the name of a driven motor",
         ),
+        (
+            "[control.bounds]",
+            "[control.sensors]\nstrain = 0.1\n[control.bounds]",
+            "control.sensors.strain",
+            "the motor 'first' carries no beam that bends, on which a gauge could be (got 0.1). Name others that "
+            "do, such as { second = 0.01 }.",
+        ),
+        (
+            "[control.bounds]",
+            "[control.sensors]\nstrain = { first = 0.1 }\n[control.bounds]",
+            "control.sensors.strain.first",
+            "carries no beam",
+        ),
     ],
 )
 def test_faults_are_named(old: str, new: str, key: str, words: str) -> None:
     assert old in CONTROL
     with pytest.raises(SceneError) as caught:
-        parse_scene(ARM + CONTROL.replace(old, new, 1))
+        parse_scene(BEAM + CONTROL.replace(old, new, 1))
     assert any(problem.key == key and words in str(problem) for problem in caught.value.problems), (
         caught.value
     )

@@ -11,7 +11,7 @@ from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.target import rest_with
 from tmm_gen.errors import UserError
 from tmm_gen.reference.spatial_places import Tree
-from tmm_gen.scene import Scene
+from tmm_gen.scene import Scene, SceneError
 
 
 def test_accelerometers_feel_second_differences_of_places(reach: Scene) -> None:
@@ -52,9 +52,9 @@ def test_a_gauge_shows_what_hangs_beyond_it(reach: Scene) -> None:
 
 def test_where_nothing_can_be_shown_the_scene_is_refused(reach: Scene) -> None:
     """The yaw carries a motor; the remedy that is told works."""
-    everywhere = reach.replace(**{"control.sensors.strain": 0.1})
-    with pytest.raises(UserError, match=r"'yaw' carries no beam .* \{ lift = 0\.01 \}"):
-        _ = Bench.of(everywhere).step.sensing
+    for told in (0.1, {"yaw": 0.1, "lift": 0.1}):
+        with pytest.raises(SceneError, match=r"'yaw' carries no beam .* \{ lift = 0\.01 \}"):
+            reach.replace(**{"control.sensors.strain": told})
     assert Bench.of(reach.replace(**{"control.sensors.strain": {"lift": 0.01}})).step.sensing.gauges[1]
     upright = reach.replace(
         **{

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.control_motors import motors_told
+from tmm_gen.scene.rules.control_sensors import beams_in_space, gauges_on_beams
 from tmm_gen.scene.rules.control_trajectory import can_be_kept, no_trajectory
 from tmm_gen.scene.spatial.document import SpatialDocument
 
@@ -27,4 +28,6 @@ def motors_in_space_controlled(document: SpatialDocument) -> Iterator[Finding]:
     yield from no_trajectory(control)
     frames = tuple(name for name, frame in document.expansion.frames.items() if frame.joint)
     yield from can_be_kept(control, frames, "xyz")
-    yield from motors_told(control, tuple(name for name, number in numbers.items() if number in turned))
+    motors = tuple(name for name, number in numbers.items() if number in turned)
+    broken = list(motors_told(control, motors))
+    yield from broken or gauges_on_beams(control, motors, beams_in_space(document, motors))
