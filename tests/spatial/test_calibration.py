@@ -168,7 +168,7 @@ def test_combinations_that_a_record_cannot_tell_are_named(scene: Scene, record: 
     (less,) = re.findall(
         rf"1 % more of {turret} and (\S+) % less of {rotor} together leave the record as it is", said
     )
-    assert float(less) == pytest.approx(share, rel=0.01)
+    assert float(less) == pytest.approx(share, rel=1e-3)
     assert "Nothing recorded depends on body.turret.mass" in said
     (kept,) = re.findall(r"--fit ([\w.]+)", said)
     assert kept in (turret, rotor)

@@ -96,12 +96,16 @@ def calibrate(
     before = fit.remains(np.zeros(len(chosen)))
     left = fit.remains(logarithms)
     jacobian = _jacobian(fit, logarithms)
-    normal = jacobian[np.abs(left) <= reach].T @ jacobian[np.abs(left) <= reach]
+    normal = _normal(jacobian, left, reach)
     absent = _absent(scene, record)
     if absent and not np.any(normal):
         raise UserError(f"{scene.source.origin}: nothing that is fitted makes a difference.{absent}")
     told = Told.of(normal)
     if len(told.apart) < len(chosen):
+        # where a fit ends along what the record does not tell is chance: shares are those beside the given numbers
+        near = told.near_given(logarithms)
+        beside = Told.of(_normal(_jacobian(fit, near), fit.remains(near), reach))
+        told = beside if len(beside.apart) < len(chosen) else told
         raise UserError(
             f"{scene.source.origin}: the record does not tell {' and '.join(chosen)} apart. {told.remedy(chosen)}"
             f"{absent if told.unseen else ''}"
@@ -178,6 +182,12 @@ def _jacobian(fit: Fit, logarithms: Array) -> Array:
         beside = nudge * np.eye(len(logarithms))[k]
         columns.append((fit.remains(logarithms + beside) - fit.remains(logarithms - beside)) / (2.0 * nudge))
     return np.array(columns).T
+
+
+def _normal(jacobian: Array, remains: Array, reach: float) -> Array:
+    """Return the matrix of the normal equations, of what has not lost weight."""
+    weighed = jacobian[np.abs(remains) <= reach]
+    return np.asarray(weighed.T @ weighed, float)
 
 
 def _size(remains: Array, reach: float) -> float:

@@ -56,6 +56,15 @@ class Told:
             left.pop(int(np.argmax(np.abs(along))))
         return cls(tuple(left), unseen, tuple(blurred))
 
+    def near_given(self, logarithms: Array) -> Array:
+        """Return where fitted numbers are as near to the given ones as the record allows, (p,), as logarithms."""
+        near = np.array(logarithms)
+        near[list(self.unseen)] = 0.0
+        if self.blurred:
+            along = np.array(self.blurred).T
+            near -= along @ np.linalg.lstsq(along, near, rcond=None)[0]
+        return near
+
     def remedy(self, keys: Sequence[str]) -> str:
         """Say what the record does not tell of some keys, and what can be fitted in their place."""
         without = " and ".join(key for k, key in enumerate(keys) if k not in self.apart)
