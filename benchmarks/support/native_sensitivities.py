@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tmm_gen.c_language.names import macros
 from tmm_gen.c_language.real import REALS
 from tmm_gen.emit.c import emit_kernel
-from tmm_gen.emit.c.sensitivities import LANES
 from tmm_gen.emit.templates import render
 from tmm_gen.native.compiler import FLAGS, compile_library
 from tmm_gen.native.library import Library
@@ -58,9 +58,14 @@ class NativeSensitivities:
             raise ValueError(f"{program.name} has no sensitivities: set emit.sensitivities")
         files = emit_kernel(program, scene)
         files["c/kernel-harness.c"] = render("c/harness.c.jinja", name=program.name)
+        files["c/lanes.c"] = (
+            f'#include "{program.name}_sensitivities.h"\n\n'
+            f"int lanes(void);\nint lanes(void)\n{{\n    return {macros(program.name)}_LANES;\n}}\n"
+        )
         handle = ctypes.CDLL(str(compile_library(files, cc, flags)))
         self._library = Library(program, REALS[scene.emit.real], handle)
         self._function: Any = getattr(handle, f"{program.name}_step_with_sensitivities")
+        self._lanes = int(handle.lanes())
         self._number = np.float64 if scene.emit.real == "float64" else np.float32
         params, self._model = self._library.types["params"](), self._library.types["model"]()
         self._library.call("default_params", params)
@@ -110,10 +115,10 @@ class NativeSensitivities:
         return after.astype(float), found.astype(float)
 
     def _blocks(self, columns: ArrayLike, rows: int) -> NDArray[Any]:
-        """Return columns in blocks of lanes, (blocks, rows, LANES), the last filled with zeros."""
+        """Return columns in blocks of lanes, (blocks, rows, lanes), the last filled with zeros."""
         given = np.atleast_2d(np.asarray(columns, float))
         count = given.shape[1]
-        blocks = -(-count // LANES)
-        padded = np.zeros((rows, blocks * LANES), self._number)
+        blocks = -(-count // self._lanes)
+        padded = np.zeros((rows, blocks * self._lanes), self._number)
         padded[: len(given), :count] = given
-        return np.ascontiguousarray(padded.reshape(rows, blocks, LANES).transpose(1, 0, 2))
+        return np.ascontiguousarray(padded.reshape(rows, blocks, self._lanes).transpose(1, 0, 2))

@@ -52,6 +52,22 @@ def test_torques_are_those_of_python(
     assert np.abs(found.torques - loop.torques).max() < 1e-6
 
 
+def test_torques_do_not_depend_on_how_many_directions_go_side_by_side(
+    bench: Bench, emitted: Callable[..., EmittedController], recorded: Callable[..., object]
+) -> None:
+    """Compilers for registers of 512 bits get sixteen; three divide nothing."""
+    measured = recorded("rti", SAMPLES["rti"]).measured
+    usual = emitted("rti")
+    usual.reset()
+    expected = usual.run(measured).torques
+    name, files = emit_controller(bench, "rti")
+    for lanes in (3, 16):
+        told = f"-D{name.upper()}_KERNEL_LANES={lanes}"
+        other = EmittedController(name, files, [0, 1], flags=("-O1", "-ffp-contract=off", told))
+        other.reset()
+        assert np.abs(other.run(measured).torques - expected).max() < 1e-12
+
+
 def test_a_rate_bound_and_a_long_delay_are_those_of_python(bench: Bench) -> None:
     """Two samples and a half of delay, a bound of the change of torque that binds."""
     scene = bench.scene.replace(**{"control.delay": 0.05, "control.bounds.torque_rate": 60.0})

@@ -20,6 +20,11 @@ from tmm_gen.program.variables import Variable
 LANES = 8
 """Directions side by side, unless the compiler is told otherwise: what the widest vector registers hold."""
 
+LANES_OF_512_BITS = 16
+"""The same for arms in a plane where registers are that wide. A sweep waits for its own last result, and two registers'
+worth of directions take the time of one (measured: 5 to 20 links, gcc 12, Zen 5). With fewer or narrower registers, and
+with the many sums of an arm in space, the numbers no longer fit: there eight are quicker."""
+
 
 @dataclass(frozen=True)
 class Derivatives:
@@ -56,6 +61,11 @@ class Derivatives:
     def lanes(self) -> int:
         """Directions side by side by default."""
         return LANES
+
+    @property
+    def lanes_of_512_bits(self) -> int:
+        """The same where a register holds 512 bits."""
+        return LANES_OF_512_BITS if self.kernel.scene.spatial is None else LANES
 
     def members(self, which: str) -> list[str]:
         """Return the members of the struct of the point, the state's changes or the inputs' changes."""
