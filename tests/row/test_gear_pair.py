@@ -18,7 +18,7 @@ from tmm_gen.native import compile_kernel
 from tmm_gen.program.arm.assemble import Choices, build
 from tmm_gen.program.arm.product import ProductWalks
 from tmm_gen.program.arm.walks import Walks
-from tmm_gen.program.passes.dependence import read_before_written
+from tmm_gen.program.passes.lifetimes import read_before_written
 from tmm_gen.program.statements import Program
 from tmm_gen.row.row import Parameter
 from tmm_gen.row.scene import row_of

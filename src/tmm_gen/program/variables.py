@@ -45,6 +45,10 @@ class Role(Enum):
         return self in (Role.STEP, Role.PARAMETER, Role.COEFFICIENT)
 
 
+SCRATCH = frozenset({Role.WORK, Role.LOCAL})
+"""Roles of variables that no one reads after the routine."""
+
+
 class Spread(Enum):
     """What the parts of a value that is a vector are of, where stages are solved at once."""
 

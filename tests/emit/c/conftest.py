@@ -17,9 +17,8 @@ from tmm_gen.emit.c import emit_c
 from tmm_gen.emit.expressions import ExpressionPrinter
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.build import build_unchecked
-from tmm_gen.program.passes.dependence import SCRATCH
 from tmm_gen.program.statements import Loop, Order, Program, Require, Routine
-from tmm_gen.program.variables import Ref, Variable
+from tmm_gen.program.variables import SCRATCH, Ref, Variable
 from tmm_gen.scene import Scene, parse_scene
 
 WARNINGS = [

@@ -14,7 +14,7 @@ from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.native.library import NonFiniteStateError, OutOfRangeError, VanishingPivotError
 from tmm_gen.program.build import build_program
 from tmm_gen.program.count import count_routine
-from tmm_gen.program.passes.dependence import carried_scalars
+from tmm_gen.program.passes.lifetimes import carried_scalars
 from tmm_gen.program.statements import Loop, Order, Program, Routine
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene, SceneError, load_scene

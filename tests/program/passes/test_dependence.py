@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from tmm_gen.program.passes.dependence import Together, Touched, read_before_written, reversible
+from tmm_gen.program.passes.dependence import Together, Touched, reversible
+from tmm_gen.program.passes.lifetimes import read_before_written
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section
 from tmm_gen.program.variables import Role, Variable
 

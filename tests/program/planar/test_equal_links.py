@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tmm_gen.program.build import build_program
-from tmm_gen.program.passes.dependence import read_before_written
+from tmm_gen.program.passes.lifetimes import read_before_written
 from tmm_gen.scene import parse_scene
 
 SCENE = """

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import sympy as sp
 
 from tmm_gen.emit.expressions import ordered_terms
-from tmm_gen.program.passes.dependence import carried_scalars
+from tmm_gen.program.passes.lifetimes import carried_scalars
 from tmm_gen.program.statements import Assign, Loop
 from tmm_gen.program.variables import Ref
 

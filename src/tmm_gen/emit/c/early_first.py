@@ -13,7 +13,8 @@ import sympy as sp
 
 from tmm_gen.emit.c.clock import Pair, settled
 from tmm_gen.emit.c.late_factor import late_factors_last
-from tmm_gen.program.passes.dependence import carried_scalars, dead_after, written_elements, written_scalars
+from tmm_gen.program.passes.accesses import written_elements
+from tmm_gen.program.passes.lifetimes import carried_scalars, dead_after, written_scalars
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 

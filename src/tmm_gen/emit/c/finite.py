@@ -8,7 +8,7 @@ from tmm_gen.c_language.names import macros, member
 from tmm_gen.c_language.real import Real
 from tmm_gen.c_language.wrap import INDENT, comment, statement
 from tmm_gen.emit.c.structs import dimension
-from tmm_gen.program.passes.dependence import written_elements
+from tmm_gen.program.passes.accesses import written_elements
 from tmm_gen.program.statements import Program
 from tmm_gen.program.variables import Variable
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.program.passes.dependence import carried_scalars
+from tmm_gen.program.passes.lifetimes import carried_scalars
 from tmm_gen.program.statements import Assign, Loop, Order, Routine
 from tmm_gen.program.variables import Ref, Role, Variable
 

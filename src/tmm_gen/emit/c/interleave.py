@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from tmm_gen.program.passes.dependence import carried_scalars
+from tmm_gen.program.passes.lifetimes import carried_scalars
 from tmm_gen.program.statements import Assign, Loop, Order, Require, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 

@@ -16,7 +16,7 @@ from tmm_gen.emit.c.body import Body
 from tmm_gen.emit.c.loops import loop_head
 from tmm_gen.emit.c.printer import CPrinter
 from tmm_gen.emit.c.words import sentence
-from tmm_gen.program.passes.dependence import accesses, first_uses
+from tmm_gen.program.passes.accesses import accesses, first_uses
 from tmm_gen.program.statements import Assign, Loop, Statement
 from tmm_gen.program.variables import Ref, Role, Variable
 

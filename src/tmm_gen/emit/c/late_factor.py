@@ -13,7 +13,7 @@ from dataclasses import replace
 import sympy as sp
 
 from tmm_gen.emit.c.clock import Clock, period, settled
-from tmm_gen.program.passes.dependence import carried_scalars
+from tmm_gen.program.passes.lifetimes import carried_scalars
 from tmm_gen.program.statements import Assign, Loop, Require
 from tmm_gen.program.variables import Ref, Variable, refs_in
 

@@ -13,9 +13,9 @@ from tmm_gen.emit.c.interleave import interleave
 from tmm_gen.emit.c.one_ahead import one_ahead
 from tmm_gen.emit.c.split_at_runs import split_at_runs
 from tmm_gen.program.passes.contract import contract
-from tmm_gen.program.passes.dependence import read_before_written
 from tmm_gen.program.passes.fuse import fuse
 from tmm_gen.program.passes.join import join
+from tmm_gen.program.passes.lifetimes import read_before_written
 from tmm_gen.program.statements import (
     Assign,
     Loop,

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from tmm_gen.program.motion import in_order
-from tmm_gen.program.passes.dependence import carried_scalars, dead_after
+from tmm_gen.program.passes.lifetimes import carried_scalars, dead_after
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from tmm_gen.program.passes.dependence import accesses, carried_scalars, written_scalars
+from tmm_gen.program.passes.accesses import accesses
+from tmm_gen.program.passes.lifetimes import carried_scalars, written_scalars
 from tmm_gen.program.statements import Assign, Loop, Mark, Routine, Statement
 from tmm_gen.program.variables import Role, Variable
 

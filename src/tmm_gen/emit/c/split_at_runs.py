@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 
-from tmm_gen.program.passes.dependence import written_scalars
+from tmm_gen.program.passes.lifetimes import written_scalars
 from tmm_gen.program.statements import Assign, Loop, Require, Routine, Statement
 from tmm_gen.program.variables import refs_in
 

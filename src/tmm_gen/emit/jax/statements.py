@@ -14,8 +14,8 @@ from tmm_gen.emit.python.printer import PythonPrinter
 from tmm_gen.emit.python.routine import PythonRoutine
 from tmm_gen.emit.python.storage import rebound, vectorised
 from tmm_gen.errors import UserError
-from tmm_gen.program.passes.dependence import carried_scalars, dead_after, written_scalars
 from tmm_gen.program.passes.join import join
+from tmm_gen.program.passes.lifetimes import carried_scalars, dead_after, written_scalars
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Require, Routine, Statement, Until
 from tmm_gen.program.variables import Ref, Variable
 

@@ -13,10 +13,11 @@ from operator import is_
 
 import sympy as sp
 
-from tmm_gen.program.passes.dependence import SCRATCH, Uses, accesses, first_uses, uses_of
+from tmm_gen.program.passes.accesses import accesses, first_uses, uses_of
+from tmm_gen.program.passes.lifetimes import Uses
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.statements import Assign, Loop, Mark, Require, Routine, Section, Statement
-from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable, refs_in
 
 
 def contract(routine: Routine) -> Routine:

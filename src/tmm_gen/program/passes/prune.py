@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from tmm_gen.program.passes.dependence import SCRATCH, Uses, carried_scalars
+from tmm_gen.program.passes.lifetimes import Uses, carried_scalars
 from tmm_gen.program.passes.rewrite import keep_assignments, keep_statements
 from tmm_gen.program.statements import Assign, Loop, Require, Routine, Section, Statement
-from tmm_gen.program.variables import Variable, refs_in
+from tmm_gen.program.variables import SCRATCH, Variable, refs_in
 
 
 def prune(routine: Routine, wanted: frozenset[Variable]) -> Routine:

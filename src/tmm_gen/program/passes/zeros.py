@@ -11,9 +11,8 @@ from dataclasses import replace
 
 import sympy as sp
 
-from tmm_gen.program.passes.dependence import SCRATCH
 from tmm_gen.program.statements import Assign, Loop, Repeat, Require, Routine, Section, Statement, Until
-from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable, refs_in
 
 Zeros = frozenset[Variable]
 """Scratch scalars that are zero at a point of a routine; arrays that are zero wherever they have been set."""

@@ -13,13 +13,12 @@ from dataclasses import replace
 
 import sympy as sp
 
-from tmm_gen.program.passes.dependence import SCRATCH
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
 from tmm_gen.program.sensitivities.slopes import Slopes
 from tmm_gen.program.sensitivities.twins import LINEARISE_DOC, TANGENT_DOC, change_of, changes_of
 from tmm_gen.program.statements import Assign, Loop, Program, Require, Routine, Section, Sensitivities
-from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable, refs_in
 
 _MOVED = frozenset({Role.STATE, Role.INPUT})
 

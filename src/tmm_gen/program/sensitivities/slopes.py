@@ -8,9 +8,8 @@ from typing import Any
 
 import sympy as sp
 
-from tmm_gen.program.passes.dependence import SCRATCH
 from tmm_gen.program.statements import Assign, Loop
-from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable, refs_in
 
 Key = tuple[object, ...]
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from tmm_gen.program.passes.dependence import SCRATCH
 from tmm_gen.program.passes.rewrite import map_values
 from tmm_gen.program.statements import Assign, Loop, Routine, Sensitivities, Statement
-from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable, refs_in
 
 _ROLES = {Role.STATE: Role.TANGENT, Role.INPUT: Role.INPUT_TANGENT}
 
