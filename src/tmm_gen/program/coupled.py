@@ -8,15 +8,15 @@ from functools import cached_property
 
 import sympy as sp
 
-from tmm_gen.derive.integrators.declaration import Kind, Past, Scheme
+from tmm_gen.derive.integrators.declaration import Kind, Scheme
 from tmm_gen.derive.integrators.spectrum import Spectrum, fraction, spectrum_of
+from tmm_gen.program.coupled_motion import Place
 from tmm_gen.program.motion import update_assignments
-from tmm_gen.program.passes.side_by_side import Lane, Pair
-from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement, Until
+from tmm_gen.program.passes.side_by_side import ZERO, Lane, Pair
+from tmm_gen.program.statements import Assign, Section, Statement, Until
 from tmm_gen.program.sweeps import LEAST_TURN, SWEEPS
 from tmm_gen.program.variables import Ref, Role, Variable, local
 
-ZERO = sp.Integer(0)
 HALF = sp.Rational(1, 2)
 GAIN_OF: dict[Kind, Ref] = {
     "q": local("angle_gain", "angle per unknown", "s^2"),
@@ -24,34 +24,6 @@ GAIN_OF: dict[Kind, Ref] = {
 }
 """What stands for the gains of each system while its sweep is written."""
 _TURNED = local("turned", "sum of squares of what this iteration changes angles by", "rad^2")
-
-
-@dataclass(frozen=True)
-class Place:
-    """Where motion stands of the stations, in a loop over them, or of the hub.
-
-    Parameters
-    ----------
-    history : mapping from Past to Variable
-    stages : tuple of Variable
-        Accelerations at the stages of the last step.
-    trial : Ref
-        Acceleration as known so far, one for each lane.
-    solved : Ref
-        What sweeps find.
-    prefix : str
-        Of names.
-    """
-
-    history: Mapping[Past, Variable]
-    stages: tuple[Variable, ...]
-    trial: Ref
-    solved: Ref
-    prefix: str = ""
-
-    def before(self, kind: Kind) -> sp.Expr:
-        """Return the motion at the start of the step."""
-        return self.history[Past(kind, 0)].at()
 
 
 @dataclass(frozen=True)
@@ -272,29 +244,6 @@ class Coupled:
 def seen(inputs: Sequence[Variable]) -> dict[str, Ref]:
     """Return what stands for inputs, by their names, while walks are written for all stages."""
     return {v.name: replace(v, length=None, role=Role.LOCAL).ref for v in inputs}
-
-
-def first_stages(stages: Sequence[Variable], newest: Variable) -> list[Statement]:
-    """Let the first step be predicted by the acceleration at the start."""
-    body = tuple(Assign(v.at(), newest.at()) for v in stages if v != newest)
-    if newest.length is None or not body:
-        return list(body)
-    return [Loop(Order.OUTWARD, 0, newest.length, body)]
-
-
-def trial_acceleration(whose: str, length: int | None) -> Ref:
-    """Return what stands for the acceleration of something as known so far.
-
-    Parameters
-    ----------
-    whose : str
-        "hub", "each link" or "each joint".
-    length : int or None
-        Of the array; None of a scalar.
-    """
-    name = "trial_acceleration" if length else f"{whose}_trial_acceleration"
-    doc = f"acceleration of {'the ' * (not length)}{whose} as known so far"
-    return Variable(name, Role.WORK if length else Role.LOCAL, length, doc, "rad/s^2").at()
 
 
 def _weighed(weights: Sequence[sp.Expr], values: Sequence[sp.Expr]) -> sp.Expr:

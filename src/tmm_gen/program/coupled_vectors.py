@@ -14,7 +14,8 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import Kind
 from tmm_gen.derive.integrators.spectrum import fraction
-from tmm_gen.program.coupled import GAIN_OF, HALF, Coupled, Place
+from tmm_gen.program.coupled import GAIN_OF, HALF, Coupled
+from tmm_gen.program.coupled_motion import Place
 from tmm_gen.program.parts import Part, Vector
 from tmm_gen.program.passes.side_by_side import ZERO, Lane, Pair
 from tmm_gen.program.statements import Assign, Section

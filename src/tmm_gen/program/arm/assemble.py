@@ -19,7 +19,7 @@ from tmm_gen.program.arm.step import MakeWalks, StepBuilder
 from tmm_gen.program.arm.thesis import start_places
 from tmm_gen.program.arm.turns import TURNED, start_unturned, take_turns_out
 from tmm_gen.program.arm.walks import Walks
-from tmm_gen.program.coupled import first_stages
+from tmm_gen.program.coupled_motion import first_stages
 from tmm_gen.program.fields import gain_names
 from tmm_gen.program.finish import NOTHING_PREPARED, START_DOC, Factors, living, prepared, stepped
 from tmm_gen.program.inputs import input_instants

@@ -19,10 +19,10 @@ from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import StageOf, motion_variable
 from tmm_gen.program.arm.walks import Walks
-from tmm_gen.program.coupled import GAIN_OF, ZERO, Coupled, seen
+from tmm_gen.program.coupled import GAIN_OF, Coupled, seen
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.motion import update_assignments
-from tmm_gen.program.passes.side_by_side import Pair, SideBySide
+from tmm_gen.program.passes.side_by_side import ZERO, Pair, SideBySide
 from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
 from tmm_gen.program.variables import Ref, Variable
 

@@ -27,10 +27,11 @@ from tmm_gen.program.arm.collocation_walks import (
 )
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import Moving, motion_variable
-from tmm_gen.program.coupled import HALF, ZERO, Place, trial_acceleration
+from tmm_gen.program.coupled import HALF
+from tmm_gen.program.coupled_motion import Place, trial_acceleration
 from tmm_gen.program.inputs import input_instants
 from tmm_gen.program.passes.shared import shared_arrays, taken_over
-from tmm_gen.program.passes.side_by_side import SideBySide
+from tmm_gen.program.passes.side_by_side import ZERO, SideBySide
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Section, Statement
 from tmm_gen.program.variables import Ref, Variable
 from tmm_gen.scene.model import MOST_SWEEPS

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import CONSISTENT_START, Integrator, Past, Scheme, past
-from tmm_gen.program.coupled import first_stages
+from tmm_gen.program.coupled_motion import first_stages
 from tmm_gen.program.fields import gain_names
 from tmm_gen.program.finish import NOTHING_PREPARED, START_DOC, Factors, living, prepared, stepped
 from tmm_gen.program.motion import history_values

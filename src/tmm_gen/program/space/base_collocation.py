@@ -18,7 +18,9 @@ from tmm_gen.derive.integrators.declaration import KINDS, Kind, Past
 from tmm_gen.derive.space import base_motion as motion_of
 from tmm_gen.derive.space.base_balance import CHANGES, LACKS, taking_up_lines
 from tmm_gen.derive.space.declaration import AXES, vector
-from tmm_gen.program.coupled import ZERO, Coupled, Place
+from tmm_gen.program.coupled import Coupled
+from tmm_gen.program.coupled_motion import Place
+from tmm_gen.program.passes.side_by_side import ZERO
 from tmm_gen.program.space.base import base_refs, turned_on
 from tmm_gen.program.space.base_layout import BaseLayout
 from tmm_gen.program.space.over_stations import OverStations

@@ -15,7 +15,8 @@ import sympy as sp
 
 from tmm_gen.derive.integrators.declaration import KINDS, Kind, Scheme
 from tmm_gen.derive.space.inward import IMBALANCE, IMPEDANCE, OWN, TORQUE
-from tmm_gen.program.coupled import GAIN_OF, Coupled, Place, seen, trial_acceleration
+from tmm_gen.program.coupled import GAIN_OF, Coupled, seen
+from tmm_gen.program.coupled_motion import Place, trial_acceleration
 from tmm_gen.program.fields import MOTION_NAMES
 from tmm_gen.program.passes.side_by_side import SideBySide
 from tmm_gen.program.space.base_collocation import BaseAtStages, values_at_stages
