@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.reference.spatial_arm import Inputs, WorldArm, complex_slopes, components
 from tmm_gen.reference.spatial_places import Motions, Places, Values, applied, cross
-from tmm_gen.reference.spatial_turns import product, quaternion, turned
+from tmm_gen.reference.spatial_turns import conjugate, product, quaternion, turned
 from tmm_gen.scene.spatial.arm import FreeBase, RigidBody, SpatialArm
 
 Array = NDArray[np.float64]
@@ -105,10 +105,10 @@ class AfloatArm:
         """Return how the base moves."""
         r, rate, curve = y[..., 3:BASE], u[..., 3:BASE], b[..., 3:BASE]
         square = np.sum(r * r, axis=-1, keepdims=True)
-        conjugate = r * np.array([1.0, -1.0, -1.0, -1.0]) / square
-        spin = 2.0 * product(rate, conjugate)[..., 1:]
+        inverse = conjugate(r) / square
+        spin = 2.0 * product(rate, inverse)[..., 1:]
         # what the change of the length makes of it is in both terms alike
-        spinning = 2.0 * product(curve, conjugate)[..., 1:]
+        spinning = 2.0 * product(curve, inverse)[..., 1:]
         along = np.sum(r * rate, axis=-1, keepdims=True) / square
         spinning = spinning - 2.0 * along * spin
         return Carrier(y[..., :3], u[..., :3], b[..., :3], turned(r / np.sqrt(square)), spin, spinning)

@@ -19,10 +19,16 @@ def product(one: Values, other: Values) -> Values:
     return found
 
 
+def conjugate(turn: Values) -> Values:
+    """Return quaternions that turn back, (..., 4)."""
+    back: Values = turn * np.array([1.0, -1.0, -1.0, -1.0])
+    return back
+
+
 def turned(r: Values) -> Values:
     """Return the axes by columns, (..., 3, 3), that quaternions of length one turn to."""
     none = np.zeros_like(r[..., :1])
-    back = r * np.array([1.0, -1.0, -1.0, -1.0])
+    back = conjugate(r)
     columns = [
         product(product(r, np.concatenate([none, np.broadcast_to(axis, (*r.shape[:-1], 3))], axis=-1)), back)[
             ..., 1:

@@ -9,15 +9,15 @@ the same way and are made units again; heat climbs through its values and never 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.reference.spatial_turns import conjugate, product
 from tmm_gen.scene import Scene
+from tmm_gen.simulate.hermite import along, hermite
 from tmm_gen.simulate.stages import HUB, StagePolynomial, stage_polynomial
 
 Array = NDArray[np.float64]
@@ -103,11 +103,11 @@ class Dense:
             solved = np.stack([step.values[name][-1] for name in names], axis=1)
             if newest in motions:  # else it is of a turn, which is no sum of these
                 q, v = motions[newest]
-                h = _over(step.spans, solved[:, 0])
+                h = along(step.spans, solved[:, 0])
                 if v in step.values:  # where a base that floats is, and how it moves, need not be kept
                     found[v] = step.values[v][0] + h * _summed(once, solved)
                 if q in step.values:
-                    gone = _over(step.shares, h) * h * step.values[v][0]
+                    gone = along(step.shares, h) * h * step.values[v][0]
                     found[q] = step.values[q][0] + gone + h**2 * _summed(twice, solved)
             found[newest] = _summed(stages.weights(step.shares), solved)
             # stages of a step that ends there, along the same polynomial
@@ -170,7 +170,7 @@ class _Step:
             for name in ("angle", f"{HUB}angle"):
                 if name in values:
                     whole = zip(values[name], values["turned"], strict=True)
-                    values[name] = [angle + _over(turned - end, angle) for angle, turned in whole]
+                    values[name] = [angle + along(turned - end, angle) for angle, turned in whole]
             values["turned"] = [end] * len(nodes)
         return cls(shares, spans, values)
 
@@ -198,7 +198,7 @@ class _Step:
             found[_HEAT] = _climbing(instants, times, states[_HEAT])
         for name, values in self.values.items():
             if name not in found:
-                share = _over(self.shares, values[0])
+                share = along(self.shares, values[0])
                 found[name] = (1.0 - share) * values[0] + share * values[-1]
         # at a node the state is known better than any polynomial has it
         nodes = np.linspace(0.0, 1.0, len(next(iter(self.values.values()))))
@@ -232,8 +232,8 @@ class _Step:
         size = np.linalg.norm(turned, axis=1, keepdims=True)
         found = dict(zip(_QUATERNION, (turned / size).T.copy(), strict=True))
         # the angular velocity that turns it so; what changes its length is none
-        omega = _conjugate_times(turned / size, turning / size)
-        return found | dict(zip(_OMEGA, 2.0 * omega.T, strict=True))
+        omega = 2.0 * product(conjugate(turned / size), turning / size)[:, 1:]
+        return found | dict(zip(_OMEGA, omega.T, strict=True))
 
 
 def dense(scene: Scene, states: States) -> Dense:
@@ -253,50 +253,6 @@ def dense(scene: Scene, states: States) -> Dense:
     return Dense(settled, None if settled else stage_polynomial(scene, states))
 
 
-def hermite(shares: Array, spans: Array, data: Sequence[Sequence[Array]]) -> list[Array]:
-    """Return value, rate and acceleration of polynomials through values and derivatives at nodes of steps.
-
-    Parameters
-    ----------
-    shares : array, (r,)
-        Where, in steps from the start of the step.
-    spans : array, (r,)
-        Lengths of the steps, s.
-    data : sequence of sequence of array, (r, ...)
-        Values at the nodes, which are equally far apart from start to end; then first derivatives, and so on.
-    """
-    origin = data[0][0]
-    x, h = _over(shares, origin), _over(spans, origin)
-    powers = _by_conditions(len(data[0]), len(data))
-    known = [values - origin for values in data[0]]
-    for derivative, values in enumerate(data[1:], start=1):
-        known += [h**derivative * value for value in values]
-    c = [
-        sum((float(w) * k for w, k in zip(row, known, strict=True)), np.zeros(np.shape(origin)))
-        for row in powers
-    ]
-    found = []
-    for derivative in range(3):
-        value = np.zeros(np.shape(origin))
-        for power in range(len(c) - 1, derivative - 1, -1):
-            value = value * x + math.perm(power, derivative) * c[power]
-        found.append(value / np.where(h > 0.0, h, 1.0) ** derivative)
-    found[0] = found[0] + origin
-    return found
-
-
-@cache
-def _by_conditions(nodes: int, derivatives: int) -> Array:
-    """Return coefficients in powers of the share, lowest first, by values at nodes, then their derivatives."""
-    count = nodes * derivatives
-    rows = []
-    for derivative in range(derivatives):
-        for node in np.linspace(0.0, 1.0, nodes):
-            rows.append([math.perm(p, derivative) * node ** max(p - derivative, 0) for p in range(count)])
-    found: Array = np.linalg.inv(np.array(rows))
-    return found
-
-
 def _climbing(instants: Array, times: Array, values: Array) -> Array:
     """Return what only grows between its values at some times, by cubics that keep it so."""
     from scipy.interpolate import PchipInterpolator  # slow to import
@@ -309,26 +265,10 @@ def _climbing(instants: Array, times: Array, values: Array) -> Array:
 
 def _rate(quaternion: Array, omega: Array) -> Array:
     """Return how quaternions change, (r, 4), by angular velocities in the turning axes, (r, 3)."""
-    scalar, vector = quaternion[:, :1], quaternion[:, 1:]
-    along = -np.sum(vector * omega, axis=1, keepdims=True)
-    found: Array = 0.5 * np.concatenate([along, scalar * omega + np.cross(vector, omega)], axis=1)
-    return found
-
-
-def _conjugate_times(left: Array, right: Array) -> Array:
-    """Return the vector part, (r, 3), of the product of a conjugate quaternion with another, (r, 4) each."""
-    found: Array = (
-        left[:, :1] * right[:, 1:] - right[:, :1] * left[:, 1:] - np.cross(left[:, 1:], right[:, 1:])
-    )
-    return found
+    return 0.5 * product(quaternion, np.insert(omega, 0, 0.0, axis=1))
 
 
 def _summed(weights: Array, values: Array) -> Array:
     """Return sums over stages, (r, ...), by weights, (r, s), of values, (r, s, ...)."""
     found: Array = np.einsum("rs,rs...->r...", weights, values)
     return found
-
-
-def _over(values: Array, like: Array) -> Array:
-    """Give numbers for each instant as many axes as arrays of them have."""
-    return values.reshape(values.shape + (1,) * (np.ndim(like) - 1))
