@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from os import PathLike
-from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Literal, Unpack
 
@@ -15,18 +13,15 @@ from numpy.typing import NDArray
 from tmm_gen.api.changes import keys_of
 from tmm_gen.api.given import constants, free_angles, named, positive, required, signals
 from tmm_gen.api.guard import guarded
-from tmm_gen.api.picture import target_of
-from tmm_gen.api.several import Few, texts
 from tmm_gen.api.studied import Studied
 from tmm_gen.api.tables import Tables
-from tmm_gen.api.words import path_of, whole
+from tmm_gen.api.words import whole
+from tmm_gen.api.written import Written
 from tmm_gen.errors import UserError
-from tmm_gen.files import write_whole
 from tmm_gen.scene import scene_from
 
 if TYPE_CHECKING:
     from tmm_gen.api.checked import Check
-    from tmm_gen.api.exported import Exported
     from tmm_gen.api.frequency import Response
     from tmm_gen.api.kernels import Kernels
     from tmm_gen.api.modes import Modes
@@ -34,7 +29,6 @@ if TYPE_CHECKING:
     from tmm_gen.api.run import Run
     from tmm_gen.control.linear_model import LinearModel
     from tmm_gen.modal.discretised import LinksNeeded
-    from tmm_gen.package.build import Built
 
 # SymPy, SciPy, CasADi and Matplotlib are imported inside: an arm is read and changed without them.
 
@@ -45,7 +39,7 @@ Near = Mapping[str, float]
 """Angles of joints by name, rad."""
 
 
-class Arm(Studied):
+class Arm(Studied, Written):
     """An arm, checked. It never changes: :meth:`with_` returns another.
 
     Parameters
@@ -252,65 +246,6 @@ class Arm(Studied):
                 raise UserError(f"{item.name}: a prescribed base is moved by the check itself. Leave it out.")
         steps = number_of_steps(default_duration(scene), scene.integrator.step)
         return Check(self.name, check_scene(scene, lambda share, doing: None, signals(scene, acting, steps)))
-
-    @guarded
-    def build(self, out: str | PathLike[str] = "generated", *, force: bool = False) -> Built:
-        """Write its generated package into a folder of packages; say what was done.
-
-        Parameters
-        ----------
-        out : str or path
-            Folder of the packages; made if missing.
-        force : bool
-            Overwrite also files that were edited by hand or are not tmm-gen's.
-        """
-        from tmm_gen.package.build import built
-
-        folder = path_of("out", out)
-        if folder.exists() and not folder.is_dir():
-            raise UserError(f"out: {folder} is a file, not a folder. Name another place.")
-        return built(self.scene, folder, force)
-
-    @guarded
-    def export(self, file: str | PathLike[str], *, fmi: Literal[2, 3] = 2, cc: str = "gcc") -> Exported:
-        """Write it for another tool, by the file's ending.
-
-        Parameters
-        ----------
-        file : str or path
-            ``.fmu``: a functional mock-up unit. ``.xml``: a model for MuJoCo. ``.urdf``: a robot, of arms in space.
-        fmi : {2, 3}
-            Version of FMI.
-        cc : str
-            Compiler of the unit's binary.
-        """
-        from tmm_gen.api.exported import exported
-
-        return exported(self.scene, file, fmi, cc)
-
-    @guarded
-    def playground(
-        self, file: str | PathLike[str], *, integrators: Few = None, until: float | None = None
-    ) -> Path:
-        """Write one page on which anybody plays with it, as WebAssembly; needs the extra `playground`.
-
-        Parameters
-        ----------
-        file : str or path
-            Ends in ``.html``.
-        integrators : str or iterable of str, optional
-            To choose from, besides its own and ``sdirk4``; by default ``newmark``, ``bathe``, ``houbolt``, ``zhai``.
-        until : float, optional
-            Length of a run, s; by default five slow periods, or fewer.
-        """
-        from tmm_gen.playground.page import playground
-
-        target = target_of(file, (".html",))
-        write_whole(
-            target,
-            playground(self.scene, texts("integrators", integrators), positive("until", until, "seconds")),
-        )
-        return target
 
     @guarded
     def casadi(self) -> ModuleType:

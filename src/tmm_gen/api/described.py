@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from os import PathLike
-from pathlib import Path
 from typing import Self
 
 from tmm_gen.api.guard import guarded
 from tmm_gen.api.html import html_table
-from tmm_gen.api.picture import target_of
-from tmm_gen.files import write_whole
 from tmm_gen.scene import Scene
 from tmm_gen.scene.columns import output_columns
 from tmm_gen.scene.quantity import INPUT_UNITS
@@ -61,13 +57,6 @@ class Described:
         import tomlkit
 
         return tomlkit.dumps(dict(self.scene.source.data))
-
-    @guarded
-    def save(self, file: str | PathLike[str]) -> Path:
-        """Write its scene file; return where."""
-        target = target_of(file, (".toml",))
-        write_whole(target, self.toml())
-        return target
 
     @property
     def _size(self) -> str:
