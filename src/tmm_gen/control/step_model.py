@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.compiled import compiled
 from tmm_gen.control.delay import Delay, delay_of
 from tmm_gen.control.lag import input_lag
 from tmm_gen.control.motor_rows import Motors
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.payload import changed_parameters, laden, payload_of
 from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.sample import after_sample, rollout, rollout_slopes, sample_slopes
 from tmm_gen.control.sensing import Sensing, sites_of
 from tmm_gen.control.sensors import sensors_of
 from tmm_gen.control.step_slopes import step_slopes
@@ -154,29 +154,18 @@ class StepModel:
         import casadi as ca
 
         x, w = ca.SX.sym("x", self.size), ca.SX.sym("w", 2 * self.motors.count)
-        return ca.Function("sample", [x, w], [self._after(x, w, self.parameters)], ["x", "w"], ["x_next"])
-
-    def _after(self, x: Any, w: Any, p: Any) -> Any:
-        step = self.module.step_function()
-        for torque in self._torques(w):
-            x = step(x, self.inputs(torque), p)[0]
-        return x
-
-    def _torques(self, w: Any) -> list[Any]:
-        """Return the torques of each step of a sample, m at a time."""
-        count = self.motors.count
-        before, then = w[:count], w[count:]
-        shares = self.delay.shares(self.problem.substeps)
-        return [then if share == 0.0 else share * before + (1.0 - share) * then for share in shares]
+        return ca.Function(
+            "sample", [x, w], [after_sample(self, x, w, self.parameters)], ["x", "w"], ["x_next"]
+        )
 
     def inputs(self, torques: Any) -> Any:
         """Return the inputs of the kernel where only the motors' torques act, m rows."""
         import casadi as ca
 
-        return ca.mtimes(ca.sparsify(ca.DM(self._acting)), torques)
+        return ca.mtimes(ca.sparsify(ca.DM(self.acting)), torques)
 
     @property
-    def _acting(self) -> Array:
+    def acting(self) -> Array:
         """Which input of the kernel is the torque of which motor, (inputs, m)."""
         wanted = self.motors.inputs
         return np.array([[float(name == each) for each in wanted] for name in self.module.INPUT_NAMES])
@@ -198,20 +187,7 @@ class StepModel:
         import casadi as ca
 
         x, w = ca.MX.sym("x", self.size), ca.MX.sym("w", 2 * self.motors.count)
-        return ca.Function("sample_slopes", [x, w], self._slopes(x, w, self.parameters))
-
-    def _slopes(self, x: Any, w: Any, p: Any) -> list[Any]:
-        """Return state and slopes after a sample; of MX, so that code for one step serves all."""
-        import casadi as ca
-
-        step, driven = step_slopes(self.module), ca.DM(self._acting)
-        by_state, by_torques = ca.MX.eye(self.size), ca.MX.zeros(self.size, 2 * self.motors.count)
-        for torque in self._torques(w):
-            x, slope, by_inputs = step(x, self.inputs(torque), p)
-            by_state = ca.mtimes(slope, by_state)
-            shares = ca.densify(ca.jacobian(torque, w))
-            by_torques = ca.mtimes(slope, by_torques) + ca.mtimes(ca.mtimes(by_inputs, driven), shares)
-        return [x, ca.densify(by_state), ca.densify(by_torques)]
+        return ca.Function("sample_slopes", [x, w], sample_slopes(self, x, w, self.parameters))
 
     @cached_property
     def _one_step(self) -> Any:
@@ -219,8 +195,8 @@ class StepModel:
 
     def step_slopes(self, state: Array, torque: Array) -> tuple[Array, Array, Array]:
         """Return the state after a step of the kernel, (s,), its derivatives by state, (s, s), and torques, (s, m)."""
-        after, by_state, by_inputs = self._one_step(state, self._acting @ torque, self.parameters)
-        return np.array(after).ravel(), np.array(by_state), np.array(by_inputs) @ self._acting
+        after, by_state, by_inputs = self._one_step(state, self.acting @ torque, self.parameters)
+        return np.array(after).ravel(), np.array(by_state), np.array(by_inputs) @ self.acting
 
     @cached_property
     def sensor_slopes(self) -> Any:
@@ -234,36 +210,12 @@ class StepModel:
     @cached_property
     def rollout(self) -> Callable[[Any, Any], Any]:
         """``(x, w (2 m, N)) -> (states after each sample, (size, N))``, compiled."""
-        import casadi as ca
-
-        x, w, p = (ca.SX.sym(name, size) for name, size in self._sizes)
-        one = ca.Function("sample", [x, w, p], [self._after(x, w, p)])
-        return self._along("rollout", one.mapaccum(self.problem.horizon), 1)
+        return rollout(self)
 
     @cached_property
     def rollout_slopes(self) -> Callable[[Any, Any], Any]:
         """``(x (size, N), w (2 m, N)) -> F, dF/dx side by side, dF/dw likewise`` at each of N points, compiled."""
-        import casadi as ca
-
-        x, w, p = (ca.MX.sym(name, size) for name, size in self._sizes)
-        one = ca.Function("sample_slopes", [x, w, p], self._slopes(x, w, p))
-        return self._along("rollout_slopes", one.map(self.problem.horizon), self.problem.horizon)
-
-    @property
-    def _sizes(self) -> list[tuple[str, int]]:
-        return [("x", self.size), ("w", 2 * self.motors.count), ("p", len(self.parameters))]
-
-    def _along(self, name: str, many: Any, states: int) -> Callable[[Any, Any], Any]:
-        """Return a function of states and torques, compiled with parameters open: one library for all arms alike."""
-        import casadi as ca
-
-        width, horizon = 2 * self.motors.count, self.problem.horizon
-        x, w = ca.MX.sym("x", self.size, states), ca.MX.sym("w", width, horizon)
-        p = ca.MX.sym("p", len(self.parameters))
-        results = many(x, w, ca.repmat(p, 1, horizon))
-        run = compiled(ca.Function(name, [x, w, p], [*results] if states > 1 else [results]))
-        parameters = self.parameters
-        return lambda states, torques: run(states, torques, parameters)
+        return rollout_slopes(self)
 
     # -- states -------------------------------------------------------------------------------------------------
 
