@@ -130,6 +130,10 @@ def _fails(now: float) -> float:
             lambda arm: arm.simulate(UNTIL, push=10**5000),
             "push: an integer of thousands of digits is not a finite",
         ),
+        (
+            lambda arm: arm.simulate(UNTIL, push=lambda now: 10**5000),
+            "returns an integer of thousands of digits at t = 0 s",
+        ),
         (lambda arm: arm.simulate(until=UNTIL, push=1j), "push: 1j is not a finite number"),
         (
             lambda arm: arm.simulate(UNTIL, push="fast"),

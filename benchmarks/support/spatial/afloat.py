@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from tmm_gen.reference.spatial_turns import product
 from tmm_gen.scene.spatial.arm import (
     ArmInput,
     ArmOutput,
+    ArmQuantity,
     Frame,
     FreeBase,
     Revolute,
@@ -23,6 +24,10 @@ from tmm_gen.scene.spatial.arm import (
 )
 
 Array = NDArray[np.float64]
+
+_PUSHES: tuple[Literal["force", "moment"], ...] = ("force", "moment")
+_AXES: tuple[Literal["world", "body"], ...] = ("world", "body")
+_SEEN: tuple[ArmQuantity, ...] = ("position", "velocity", "orientation")
 
 
 def random_afloat(seed: int, joints: int = 3, *, loads: bool = True) -> SpatialArm:
@@ -35,18 +40,17 @@ def random_afloat(seed: int, joints: int = 3, *, loads: bool = True) -> SpatialA
     """
     rng = np.random.default_rng([seed, 7])
     arm = random_arm(seed, joints, tree=True, loads=loads)
-    turn = tuple(_vector(row) for row in Rotation.from_rotvec(rng.uniform(-2.0, 2.0, 3)).as_matrix())
-    hub = Frame("hub", 0, _vector(rng.uniform(-0.2, 0.2, 3)), turn)  # type: ignore[arg-type]
+    first, second, third = Rotation.from_rotvec(rng.uniform(-2.0, 2.0, 3)).as_matrix()
+    turn = (_vector(first), _vector(second), _vector(third))
+    hub = Frame("hub", 0, _vector(rng.uniform(-0.2, 0.2, 3)), turn)
     pushes = [
-        ArmInput(f"{acts}_{axes}_hub", acts, frame=hub, axes=axes)  # type: ignore[arg-type]
-        for acts in ("force", "moment")
-        for axes in ("world", "body")
+        ArmInput(f"{acts}_{axes}_hub", acts, frame=hub, axes=axes) for acts in _PUSHES for axes in _AXES
     ]
-    seen = [ArmOutput(f"hub_{of}", of, frame=hub) for of in ("position", "velocity", "orientation")]  # type: ignore[arg-type]
+    seen = [ArmOutput(f"hub_{of}", of, frame=hub) for of in _SEEN]
     base = FreeBase(
         random_body(rng),
         at=_vector(rng.uniform(-1.0, 1.0, 3)),
-        turn=turn,  # type: ignore[arg-type]
+        turn=turn,
         velocity=_vector(rng.uniform(-1.0, 1.0, 3)),
         rate=_vector(rng.uniform(-1.0, 1.0, 3)),
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.given import constant_inputs, input_names, read_inputs
-from tmm_gen.inputs.sampled import Function, sampled, shown, tabled
+from tmm_gen.inputs.sampled import Function, finite, sampled, shown, tabled
 from tmm_gen.inputs.signals import Signal
 from tmm_gen.modal.near import start_of
 from tmm_gen.scene import Scene
@@ -80,9 +79,8 @@ def _signal(scene: Scene, name: str, value: object, steps: int) -> Signal:
     names, angles = input_names(scene)
     if isinstance(value, str):
         return read_inputs([f"{name}={value}"], names, angles)[name]
-    if all(hasattr(value, part) for part in ("at", "slope", "curvature", "knots", "ends")):
-        signal: Signal = value  # type: ignore[assignment]
-        return signal
+    if isinstance(value, Signal):
+        return value
     if callable(value) and not hasattr(value, "__array__"):
         function = Function(name, value, scene.integrator.step)
         if name not in angles:
@@ -115,11 +113,8 @@ def number(name: str, value: object) -> float:
     UserError
         If it is none.
     """
-    try:
-        found = math.nan if isinstance(value, bool | str | bytes) else float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError, OverflowError):
-        found = math.nan
-    if not math.isfinite(found):
+    found = finite(value)
+    if found is None:
         raise UserError(f"{name}: {shown(value)} is not a finite number. Write for example {name}=1.5.")
     return found
 

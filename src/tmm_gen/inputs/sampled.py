@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import SupportsFloat, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -79,7 +81,7 @@ class Function:
             raise FunctionError(
                 f"{self.name}: the function fails at t = {now:g} s ({said}). Give one of the time in seconds, a float."
             ) from error
-        number = _number(value)
+        number = finite(value)
         if number is None:
             raise UserError(
                 f"{self.name}: the function returns {shown(value)} at t = {now:g} s. It must return a finite number."
@@ -163,15 +165,17 @@ def _numbers(name: str, values: object, what: str) -> Array:
     return plain
 
 
-def _number(value: object) -> float | None:
+def finite(value: object) -> float | None:
     """Return a value as a finite float; None for what is none."""
-    if isinstance(value, bool | str | bytes) or np.ndim(value):  # type: ignore[arg-type]
+    if getattr(value, "ndim", 0) or isinstance(value, bool):
+        return None
+    if not isinstance(value, SupportsFloat | SupportsIndex):
         return None
     try:
-        number = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
+        number = float(value)
+    except (TypeError, ValueError, OverflowError):
         return None
-    return number if np.isfinite(number) else None
+    return number if math.isfinite(number) else None
 
 
 def shown(value: object) -> str:

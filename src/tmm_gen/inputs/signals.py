@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 
 
+@runtime_checkable
 class Signal(Protocol):
     """An input over time."""
 

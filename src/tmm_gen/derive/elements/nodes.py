@@ -9,9 +9,11 @@ Forces and torques are those the inner side exerts on the outer one, as in :mod:
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import sympy as sp
 
-from tmm_gen.derive.elements.declaration import Element, Port
+from tmm_gen.derive.elements.declaration import Element
 from tmm_gen.derive.elements.planar import (
     DAMPING,
     JOINT,
@@ -41,9 +43,16 @@ _SAME_ANGLE = (_th_out.q - _th_in.q,)
 _SAME_FORCE = (_fx_out - _fx_in, _fy_out - _fy_in)
 
 
-def _element(name: str, source: str, equations: tuple[sp.Expr, ...], **kept: object) -> Element:
-    inboard: Port = _IN
-    return Element(name, source, inboard, _OUT, equations, **kept)  # type: ignore[arg-type]
+def _element(
+    name: str,
+    source: str,
+    equations: tuple[sp.Expr, ...],
+    *,
+    parameters: tuple[sp.Symbol, ...] = (),
+    inputs: tuple[sp.Symbol, ...] = (),
+    energies: Mapping[str, sp.Expr] | None = None,
+) -> Element:
+    return Element(name, source, _IN, _OUT, equations, parameters, inputs, energies or {})
 
 
 PIN = _element(

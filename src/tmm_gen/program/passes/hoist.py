@@ -14,7 +14,7 @@ from functools import lru_cache
 import sympy as sp
 
 from tmm_gen.program.passes.naming import name_of
-from tmm_gen.program.passes.rewrite import map_assigned
+from tmm_gen.program.passes.rewrite import map_lines
 from tmm_gen.program.statements import Assign, Routine, Section
 from tmm_gen.program.variables import Ref, Role, Variable, refs_in
 
@@ -40,7 +40,7 @@ class Hoister:
             self._target = target
             return self._rewrite(value)
 
-        return map_assigned(routine, hoisted)
+        return map_lines(routine, hoisted)
 
     @property
     def coefficients(self) -> tuple[Variable, ...]:

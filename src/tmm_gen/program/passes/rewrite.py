@@ -1,4 +1,4 @@
-"""Shared walking of routines for passes."""
+"""Routines with other expressions, other references, or fewer statements."""
 
 from __future__ import annotations
 
@@ -7,43 +7,50 @@ from dataclasses import replace
 
 import sympy as sp
 
-from tmm_gen.program.statements import Assign, Loop, Repeat, Routine, Section, Statement
-from tmm_gen.program.variables import Ref, Role, refs_in
+from tmm_gen.program.statements import Assign, Loop, Repeat, Require, Routine, Section, Statement, Until
+from tmm_gen.program.variables import SCRATCH, Ref, Role, refs_in
 
 
-def map_values(routine: Routine, change: Callable[[sp.Expr], sp.Expr]) -> Routine:
-    """Return the routine with every expression changed."""
+def map_lines(
+    routine: Routine,
+    value: Callable[[sp.Expr, Ref | None], sp.Expr],
+    target: Callable[[Ref], Ref] = lambda ref: ref,
+) -> Routine:
+    """Return the routine with every expression changed, and every reference that is assigned.
+
+    Parameters
+    ----------
+    value : callable
+        From an expression, and what it is assigned to, None where it is required, to another expression.
+    target : callable
+        From what is assigned to what takes its place.
+    """
+
+    def line(statement: Assign | Require) -> Assign | Require:
+        if isinstance(statement, Assign):
+            return Assign(target(statement.target), value(statement.value, statement.target))
+        return Require(value(statement.value, None))
 
     def changed(statement: Statement) -> Statement:
         if isinstance(statement, Loop):
-            return replace(statement, body=tuple(changed(s) for s in statement.body))  # type: ignore[misc]
+            return replace(statement, body=tuple(map(line, statement.body)))
         if isinstance(statement, Repeat):
             return statement
-        return replace(statement, value=change(statement.value))
+        if isinstance(statement, Until):
+            return Until(value(statement.value, None))
+        return line(statement)
 
-    sections = tuple(
-        replace(section, statements=tuple(changed(s) for s in section.statements))
-        for section in routine.sections
-    )
+    sections = tuple(replace(s, statements=tuple(map(changed, s.statements))) for s in routine.sections)
     return replace(routine, sections=sections)
 
 
-def map_assigned(routine: Routine, change: Callable[[sp.Expr, Ref | None], sp.Expr]) -> Routine:
-    """Return the routine with every expression changed, told what it is assigned to."""
+def map_references(routine: Routine, change: Callable[[Ref], Ref]) -> Routine:
+    """Return the routine with every reference changed, read or assigned."""
 
-    def changed(statement: Statement) -> Statement:
-        if isinstance(statement, Loop):
-            return replace(statement, body=tuple(changed(s) for s in statement.body))  # type: ignore[misc]
-        if isinstance(statement, Repeat):
-            return statement
-        target = statement.target if isinstance(statement, Assign) else None
-        return replace(statement, value=change(statement.value, target))
+    def value(expression: sp.Expr, _: Ref | None) -> sp.Expr:
+        return expression.xreplace({ref: change(ref) for ref in refs_in(expression)})
 
-    sections = tuple(
-        replace(section, statements=tuple(changed(s) for s in section.statements))
-        for section in routine.sections
-    )
-    return replace(routine, sections=sections)
+    return map_lines(routine, value, change)
 
 
 def renamed_scratch(
@@ -62,21 +69,10 @@ def renamed_scratch(
         if variable.role not in roles or variable.name not in names:
             return ref
         scratch = Role.LOCAL if variable.length is None else Role.WORK
-        role = variable.role if variable.role in (Role.WORK, Role.LOCAL) else scratch
+        role = variable.role if variable.role in SCRATCH else scratch
         return Ref(replace(variable, name=names[variable.name], role=role), ref.offset, ref.entry)
 
-    def changed(statement: Statement) -> Statement:
-        if isinstance(statement, Loop):
-            return replace(statement, body=tuple(changed(s) for s in statement.body))  # type: ignore[misc]
-        if isinstance(statement, Repeat):
-            return statement
-        value = statement.value.xreplace({ref: other(ref) for ref in refs_in(statement.value)})
-        if isinstance(statement, Assign):
-            return Assign(other(statement.target), value)
-        return replace(statement, value=value)
-
-    sections = tuple(replace(s, statements=tuple(map(changed, s.statements))) for s in routine.sections)
-    return replace(routine, sections=sections)
+    return map_references(routine, other)
 
 
 def keep_assignments(routine: Routine, keep: Callable[[Assign], bool]) -> Routine:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from tmm_gen.program.passes.rewrite import map_values
-from tmm_gen.program.statements import Assign, Loop, Routine, Sensitivities, Statement
-from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable, refs_in
+from tmm_gen.program.passes.rewrite import map_references
+from tmm_gen.program.statements import Routine, Sensitivities
+from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable
 
 _ROLES = {Role.STATE: Role.TANGENT, Role.INPUT: Role.INPUT_TANGENT}
 
@@ -33,18 +33,7 @@ def as_tangent(routine: Routine) -> Routine:
             return Ref(change_of(ref.variable), ref.offset, ref.entry)
         return ref
 
-    def target(statement: Statement) -> Statement:
-        if isinstance(statement, Loop):
-            return replace(statement, body=tuple(target(s) for s in statement.body))  # type: ignore[misc]
-        return (
-            replace(statement, target=changed(statement.target))
-            if isinstance(statement, Assign)
-            else statement
-        )
-
-    values = map_values(routine, lambda e: e.xreplace({ref: changed(ref) for ref in refs_in(e)}))
-    sections = tuple(replace(s, statements=tuple(map(target, s.statements))) for s in values.sections)
-    return replace(values, sections=sections)
+    return map_references(routine, changed)
 
 
 def linear_sensitivities(
