@@ -74,7 +74,7 @@ def test_the_integrator_is_that_of_its_own_page() -> None:
     assert (made[0].main, made[0].tableau) == (made[1].main, made[1].tableau)
 
 
-ALSO_READ = {"tutorial": "## 2.", "c-project": "## Without CMake", "urdf": "The scene it writes"}
+ALSO_READ = {"tutorial": "## 2.", "c-project": "## Without CMake", "urdf": "You can edit the resulting"}
 """Where reading another page of the table of times ends."""
 
 
