@@ -21,7 +21,7 @@ from tmm_gen.inputs.signals import Constant
 from tmm_gen.reference.reference import exact_response
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import load_scene
-from tmm_gen.thesis.errata import printed_coefficients
+from tmm_gen.thesis.errata import printed_table
 from tmm_gen.thesis.response import DURATION, Response, exact_tip, settling_time, simulate
 
 Array = NDArray[np.float64]
@@ -98,7 +98,7 @@ def _row(step: float) -> HeadlineRow:
 
 def as_printed(step: float, names: tuple[str, ...] = ("A", "B", "D", "E")) -> Response:
     """Run the proposed method with coefficients of table 3-8 as printed, the others as derived."""
-    printed = printed_coefficients("3-8")
+    printed = printed_table("3-8").coefficients
     method = integrator("zhou")
     return simulate(method, step, {len(method.schemes) - 1: {name: printed[name] for name in names}})
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from extremes_of_arms.arms import Extreme
 
-from tmm_gen.derive.integrators.registry import all_integrators
+from tmm_gen.derive.integrators.registry import names
 from tmm_gen.inputs.signals import Constant, Table
 from tmm_gen.scene import Scene, load_scene
 from tmm_gen.simulate.run import simulate
@@ -30,7 +30,7 @@ def left(scene: Scene, until: float, signals: dict[str, Any] | None = None) -> f
     return found
 
 
-@pytest.mark.parametrize("name", [i.name for i in all_integrators() if i.name != "zhai"])
+@pytest.mark.parametrize("name", [name for name in names() if name != "zhai"])
 def test_a_second_sweep_leaves_next_to_nothing_whatever_the_integrator(name: str) -> None:
     """Had the place where its equations hold been wrong, the rest would not go; zhai is explicit and leaves none."""
     scene = ARM2.replace(**{"integrator": {"name": name, "step": 4e-3}})

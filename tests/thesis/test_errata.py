@@ -18,7 +18,7 @@ from tmm_gen.thesis.errata import (
     derived_coefficients,
     errata_rows,
     headline,
-    printed_coefficients,
+    printed_table,
 )
 from tmm_gen.thesis.response import exact_tip, settling_time, simulate
 from tmm_gen.thesis.tables import BETA, PRINTED_B, TABLES, THETA
@@ -56,7 +56,7 @@ def test_agreement_is_decided_by_numbers_too() -> None:
     for table in TABLES:
         derived = derived_coefficients(table.number)
         for name in COEFFICIENTS:
-            printed = printed_coefficients(table.number)[name].subs(PRINTED_B, derived.B)
+            printed = printed_table(table.number).coefficients[name].subs(PRINTED_B, derived.B)
             difference = printed - getattr(derived, name)
             symbols = sorted(difference.free_symbols, key=str)
             values = [generator.integers(10, 200, len(symbols)) for _ in range(5)]
@@ -67,13 +67,13 @@ def test_agreement_is_decided_by_numbers_too() -> None:
 def test_what_the_misprints_are() -> None:
     """Each disagreement in a word: the factor between printed and derived, or the term at fault."""
     h = STEP
-    newmark, derived = printed_coefficients("3-3"), derived_coefficients("3-3")
+    newmark, derived = printed_table("3-3").coefficients, derived_coefficients("3-3")
     assert sp.simplify(newmark["A"] / derived.A) == sp.simplify(newmark["B"] / derived.B) == 2
-    wilson, derived = printed_coefficients("3-4"), derived_coefficients("3-4")
+    wilson, derived = printed_table("3-4").coefficients, derived_coefficients("3-4")
     assert sp.simplify(derived.A / wilson["A"] - 3 / THETA**2) == 0
     assert sp.simplify(wilson["E"] - derived.E + THETA * h / 2 * past("a")) == 0
     # Houbolt's second step: the acceleration's factors in B and E have changed places
-    houbolt, derived = printed_coefficients("3-6"), derived_coefficients("3-6")
+    houbolt, derived = printed_table("3-6").coefficients, derived_coefficients("3-6")
     assert sp.expand(houbolt["B"] - derived.B) == -past("a", 1)
     assert sp.expand(houbolt["E"] - derived.E) == h / 6 * past("a", 1)
 
@@ -85,7 +85,7 @@ def test_table_3_8_follows_from_one_slip_in_eq_3_80() -> None:
     weight = sp.expand(velocity).coeff(stage("a", 1))
     slip = velocity + weight / STEP * (1 - STEP) * stage("a", 1)
     slipped = discrete_coefficients(Scheme((Stage(only.instant, (displacement, slip)),), {}))
-    printed = printed_coefficients("3-8")
+    printed = printed_table("3-8").coefficients
     assert all(sp.expand(printed[name] - getattr(slipped, name)) == 0 for name in COEFFICIENTS)
 
 
@@ -121,7 +121,7 @@ def test_effects_are_measured() -> None:
 
 def test_the_misprinted_newmark_a_ends_where_its_fixed_point_says() -> None:
     """With 2 A for A, Newmark 1/4 rests where v = 0 and a = A q/2: (A M/2 + K) q = T."""
-    misprinted = {"A": printed_coefficients("3-3")["A"].subs(BETA, sp.S.One / 4)}
+    misprinted = {"A": printed_table("3-3").coefficients["A"].subs(BETA, sp.S.One / 4)}
     found = simulate(integrator("newmark"), 0.1, {0: misprinted})
     rest = np.linalg.solve(2 / 0.1**2 * 5 * np.eye(2) + [[40, -20], [-20, 20]], [0, 1])
     assert found.final == pytest.approx(rest[1] / 0.1, rel=1e-2)
@@ -166,7 +166,7 @@ def test_settling_time() -> None:
 
 def test_unknown_tables_are_refused() -> None:
     with pytest.raises(ValueError, match=r"'3-2'.*3-1"):
-        printed_coefficients("3-2")
+        printed_table("3-2")
 
 
 def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:

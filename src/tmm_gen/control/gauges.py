@@ -7,7 +7,6 @@ much as its springs on both sides are, by their distances.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -21,6 +20,7 @@ from tmm_gen.errors import UserError
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.still import Still
 from tmm_gen.scene import Scene
+from tmm_gen.scene.spatial.beam import CellName
 
 Array = NDArray[np.float64]
 
@@ -127,7 +127,7 @@ def _carried(scene: Scene, motors: Motors, motor: int) -> list[str]:
     driven = {each.place for each in motors.each}
     joints, found = scene.spatial.joints, []
     for name in _beams(scene):
-        number = min(number for number, _, _ in _bends(scene, name))
+        number = min(number for number, _ in _bends(scene, name))
         while number and number - 1 not in driven:
             number = joints[number - 1].host
         if number - 1 == here.place:
@@ -149,15 +149,15 @@ def _springs(scene: Scene, motors: Motors, motor: int, beam: str) -> Iterator[Sp
         return
     axes = Still(ArmNumbers(scene.spatial), np.zeros(size), {}).axes
     bends = list(_bends(scene, beam))
-    cell = _beams(scene)[beam] / max(cell for _, cell, _ in bends)
-    about = {which: float(axes[motors.each[motor].place] @ axes[number - 1]) for number, _, which in bends}
+    piece = _beams(scene)[beam] / max(cell.number for _, cell in bends)
+    about = {cell.way: float(axes[motors.each[motor].place] @ axes[number - 1]) for number, cell in bends}
     if max(map(abs, about.values())) < _ASKEW:
         return
-    for number, count, which in bends:
+    for number, cell in bends:
         joint = scene.spatial.joints[number - 1]
         bend = np.zeros(size)
-        bend[number - 1] = about[which]
-        yield Spring((count - 0.5) * cell, joint.stiffness, joint.damping, bend)
+        bend[number - 1] = about[cell.way]
+        yield Spring((cell.number - 0.5) * piece, joint.stiffness, joint.damping, bend)
 
 
 def _beams(scene: Scene) -> dict[str, float]:
@@ -166,10 +166,10 @@ def _beams(scene: Scene) -> dict[str, float]:
     return {entry["name"]: float(entry["length"]) for entry in entries if list(_bends(scene, entry["name"]))}
 
 
-def _bends(scene: Scene, beam: str) -> Iterator[tuple[int, int, str]]:
-    """Yield number, cell and direction of the joints in which a beam in space bends."""
+def _bends(scene: Scene, beam: str) -> Iterator[tuple[int, CellName]]:
+    """Yield the joints in which a beam in space bends: number, and name."""
     assert scene.spatial is not None
-    named = re.compile(re.escape(beam) + r"_(\d+)_bend_([yz])")
     for number, joint in enumerate(scene.spatial.joints, start=1):
-        if found := named.fullmatch(joint.name):
-            yield number, int(found[1]), found[2]
+        cell = CellName.of(joint.name)
+        if cell is not None and cell.beam == beam and cell.way != "twist":
+            yield number, cell

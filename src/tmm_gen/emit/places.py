@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from itertools import groupby
 
 from tmm_gen.scene import Scene
-
-_CELL = re.compile(r"(.+)_\d+_(?:bend_[yz]|twist)")
-"""Name of a joint of a beam in space."""
+from tmm_gen.scene.spatial.beam import CellName
 
 
 def places(scene: Scene) -> dict[str, str]:
@@ -22,7 +19,8 @@ def places(scene: Scene) -> dict[str, str]:
         nothing where no part has a name.
     """
     if scene.spatial is not None:
-        names = [(_CELL.fullmatch(joint.name) or [joint.name] * 2)[1] for joint in scene.spatial.joints]
+        cells = ((joint.name, CellName.of(joint.name)) for joint in scene.spatial.joints)
+        names = [cell.beam if cell else name for name, cell in cells]
         runs = (
             (name, [at for at, _ in run]) for name, run in groupby(enumerate(names), key=lambda of: of[1])
         )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from itertools import combinations
@@ -77,12 +76,12 @@ class Headline:
     cause: tuple[str, ...]
 
 
-def printed_coefficients(table: str) -> Mapping[str, sp.Expr]:
-    """Return A, B, D, E as a table prints them.
+def printed_table(number: str) -> PrintedTable:
+    """Return a table of coefficients as the thesis prints it.
 
     Parameters
     ----------
-    table : str
+    number : str
         "3-1" or "3-3" to "3-8".
 
     Raises
@@ -90,12 +89,15 @@ def printed_coefficients(table: str) -> Mapping[str, sp.Expr]:
     ValueError
         If the thesis has no such table of coefficients.
     """
-    return _table(table).coefficients
+    for table in TABLES:
+        if table.number == number:
+            return table
+    raise ValueError(f"no table of coefficients {number!r}; there are {', '.join(t.number for t in TABLES)}")
 
 
 def derived_coefficients(table: str) -> DiscreteCoefficients:
     """Return what a table should print, in the same open parameters."""
-    printed = _table(table)
+    printed = printed_table(table)
     method = integrator(printed.integrator, **printed.parameters)
     return discrete_coefficients(method.schemes[printed.scheme])
 
@@ -113,7 +115,7 @@ def headline(step: float) -> Headline:
     step : float
         Seconds; a divisor of 20 s.
     """
-    table = _table("3-8")
+    table = printed_table("3-8")
     method = integrator(table.integrator)
 
     def with_printed(chosen: tuple[str, ...]) -> Response:
@@ -182,10 +184,3 @@ def _reference(name: str) -> Response:
     """Return the response with all coefficients derived."""
     method: Integrator = integrator(name)
     return simulate(method, STEP_OF_EFFECTS)
-
-
-def _table(number: str) -> PrintedTable:
-    for table in TABLES:
-        if table.number == number:
-            return table
-    raise ValueError(f"no table of coefficients {number!r}; there are {', '.join(t.number for t in TABLES)}")

@@ -11,9 +11,9 @@ from support.linear import linear_of
 
 from tmm_gen.derive.integrators.amplification import LAMBDA, OMEGA, ZETA, Amplification, amplification
 from tmm_gen.derive.integrators.declaration import KINDS, Integrator
-from tmm_gen.derive.integrators.registry import all_integrators, integrator
+from tmm_gen.derive.integrators.registry import integrator, names
 
-ALL = all_integrators()
+ALL = tuple(integrator(name) for name in names())
 
 
 def numbers(linear: Amplification, omega: float, zeta: float) -> np.ndarray:

@@ -9,11 +9,11 @@ import sympy as sp
 from tmm_gen.derive.integrators.collocation import collocated, gauss_nodes, radau_nodes
 from tmm_gen.derive.integrators.declaration import KINDS, STEP, past, stage
 from tmm_gen.derive.integrators.order import order
-from tmm_gen.derive.integrators.registry import all_integrators, integrator
+from tmm_gen.derive.integrators.registry import integrator, names
 from tmm_gen.derive.integrators.relations import UnsuitableUnknownError, affine_motion
 from tmm_gen.derive.integrators.spectrum import Spectrum
 
-COUPLED = [method for method in all_integrators() if method.main.coupled]
+COUPLED = [method for method in map(integrator, names()) if method.main.coupled]
 ROOT = sp.sqrt(6)
 
 

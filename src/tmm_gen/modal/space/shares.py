@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.modal.space.still import Still
+from tmm_gen.scene.spatial.beam import CellName, Way
 
 Array = NDArray[np.float64]
 
-_CELL = re.compile(r"(?P<beam>.+)_\d+_(?P<way>bend_y|bend_z|twist)")
-_WORDS = {"bend_y": "bends about y", "bend_z": "bends about z", "twist": "twists"}
+_WORDS: dict[Way, str] = {"bend_y": "bends about y", "bend_z": "bends about z", "twist": "twists"}
 
 
 @dataclass(frozen=True)
@@ -55,8 +54,8 @@ def shares(still: Still, shape: Array) -> tuple[Share, ...]:
     parts = {frame.name for frame in still.numbers.arm.frames}
     found: dict[str, float] = {}
     for joint, energy in zip(still.numbers.arm.joints, held.tolist(), strict=True):
-        cell = None if joint.name in parts else _CELL.fullmatch(joint.name)
-        what = f"{cell['beam']} {_WORDS[cell['way']]}" if cell else f"{joint.name} turns"
+        cell = None if joint.name in parts else CellName.of(joint.name)
+        what = f"{cell.beam} {_WORDS[cell.way]}" if cell else f"{joint.name} turns"
         found[what] = found.get(what, 0.0) + energy / float(held.sum())
     ordered = sorted(found.items(), key=lambda item: -item[1])
     return tuple(Share(what, share) for what, share in ordered)

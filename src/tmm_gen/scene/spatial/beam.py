@@ -7,11 +7,12 @@ to cell: turns about different axes do not commute, and in a fixed order what th
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import cycle, islice
-from typing import Literal
+from typing import Literal, NamedTuple, cast
 
 from tmm_gen.scene.exact import exact, nearest
 from tmm_gen.scene.section import Section
@@ -22,10 +23,30 @@ from tmm_gen.scene.spatial.tables import SpatialBeam
 Way = Literal["bend_y", "bend_z", "twist"]
 AXIS_OF: dict[Way, Axis] = {"twist": 0, "bend_y": 1, "bend_z": 2}
 
+_NAME = re.compile(r"(.+)_(\d+)_(bend_y|bend_z|twist)")
+
 _ORDERS: tuple[tuple[Way, ...], tuple[Way, ...]] = (
     ("bend_y", "bend_z", "twist"),
     ("twist", "bend_z", "bend_y"),
 )
+
+
+class CellName(NamedTuple):
+    """What the name of a joint in a beam says: which beam, its cell counted from 1, and how it gives way."""
+
+    beam: str
+    number: int
+    way: Way
+
+    def __str__(self) -> str:
+        """Return the name."""
+        return f"{self.beam}_{self.number}_{self.way}"
+
+    @classmethod
+    def of(cls, joint: str) -> CellName | None:
+        """Read the name of a joint; None where it is none of a beam's."""
+        found = _NAME.fullmatch(joint)
+        return cls(found[1], int(found[2]), cast("Way", found[3])) if found else None
 
 
 @dataclass(frozen=True)
@@ -152,7 +173,7 @@ def _cells(beam: SpatialBeam, numbers: PerLength, piece: Fraction) -> Iterator[t
     time = exact(beam.damping_time)
     for number, order in enumerate(islice(cycle(_ORDERS), beam.links), start=1):
         yield tuple(
-            CellJoint(f"{beam.name}_{number}_{way}", AXIS_OF[way], nearest(k), nearest(time * k))
+            CellJoint(str(CellName(beam.name, number, way)), AXIS_OF[way], nearest(k), nearest(time * k))
             for way in order
             if (k := along[way]) is not None
         )
