@@ -62,40 +62,32 @@ class Tuned:
     @property
     def integrator(self) -> str | None:
         """The one that was chosen."""
-        chosen = self.tuning.chosen
-        if self.tuning.cheaper is not None:
-            return self.tuning.cheaper.run.family.integrator
-        return None if chosen is None else chosen.configuration.family.integrator
+        winner = self.tuning.winner
+        return None if winner is None else winner.integrator
 
     @property
     def tolerance(self) -> float | None:
         """The one that was chosen to choose steps by; None where these are all alike."""
-        return None if self.tuning.cheaper is None else self.tuning.cheaper.run.tolerance
+        winner = self.tuning.winner
+        return None if winner is None else winner.tolerance
 
     @property
     def step(self) -> float | None:
         """s; the one that was chosen. None where a tolerance chooses steps."""
-        if self.tuning.cheaper is not None:
-            return None
-        return None if self.tuning.chosen is None else self.tuning.chosen.configuration.step
+        winner = self.tuning.winner
+        return None if winner is None else winner.step
 
     @property
     def error(self) -> float | None:
         """Largest error of the chosen one, run afresh, relative to how far the output travels."""
-        if self.tuning.cheaper is not None:
-            return self.tuning.cheaper.run.error
-        point, checked = self.tuning.chosen, self.tuning.verified
-        if point is None or checked is None:
-            return None
-        return checked.error + (point.result.modelling_error or 0.0)
+        winner = self.tuning.winner
+        return None if winner is None else winner.error
 
     @property
     def seconds(self) -> float | None:
         """Seconds of computing for a simulated second, of the chosen one, on this machine."""
-        if self.tuning.cheaper is not None:
-            return 1e-9 * self.tuning.cheaper.ns_per_second
-        checked = self.tuning.verified
-        return None if checked is None else 1e-9 * checked.ns_per_second
+        winner = self.tuning.winner
+        return None if winner is None else 1e-9 * winner.ns_per_second
 
     @property
     def rows(self) -> list[dict[str, object]]:

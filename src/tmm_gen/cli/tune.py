@@ -215,16 +215,15 @@ def _facts(tuning: Tuning, lines: list[str], written: list[Path]) -> dict[str, o
         "chosen": None,
         "by_tolerance": [{**each.values(), "chosen": each is tuning.cheaper} for each in tuning.by_tolerance],
     }
-    point, checked = tuning.chosen, tuning.verified
-    if point is not None and checked is not None:
-        total = checked.error + (point.result.modelling_error or 0.0)
+    point, checked, winner = tuning.chosen, tuning.verified, tuning.of_equal_steps
+    if point is not None and checked is not None and winner is not None:
         facts["chosen"] = {
             **point.configuration.values(),
-            "error": total,
-            "error_in_unit": total * tuning.travel,
+            "error": winner.error,
+            "error_in_unit": winner.error * tuning.travel,
             "time_error": checked.error,
             "modelling_error": point.result.modelling_error,
-            "seconds_per_simulated_second": 1e-9 * checked.ns_per_second,
+            "seconds_per_simulated_second": 1e-9 * winner.ns_per_second,
             "ns_per_step": checked.ns_per_step,
             "ns_spread": checked.spread,
         }

@@ -53,15 +53,13 @@ def tuned_text(tuning: Tuning, text: str) -> str:
 
 def remarks(tuning: Tuning) -> list[str]:
     """Return what a scene file should say about where its configuration comes from."""
-    if tuning.cheaper is not None:
-        error, ns = _error(tuning, tuning.cheaper.run.error), tuning.cheaper.ns_per_second
-    else:
-        assert tuning.verified is not None
-        error, ns = _error(tuning, _total(tuning)), tuning.verified.ns_per_second
+    winner = tuning.winner
+    assert winner is not None
+    error = _error(tuning, winner.error)
     return [
         f"Tuned by `tmm-gen tune`: the output '{tuning.excitation.output}' is off by at most {error}",
         f"over {tuning.excitation.until:g} s of {'; '.join(tuning.excitation.told(tuning.scene))};",
-        f"a simulated second takes {time_text(ns)} on the machine it was tuned on.",
+        f"a simulated second takes {time_text(winner.ns_per_second)} on the machine it was tuned on.",
     ]
 
 
@@ -75,13 +73,14 @@ def _by_tolerance(tuning: Tuning, each: ByTolerance) -> str:
 
 
 def _chosen(tuning: Tuning) -> list[str]:
-    point, checked = tuning.chosen, tuning.verified
+    point, checked, winner = tuning.chosen, tuning.verified, tuning.of_equal_steps
     assert point is not None
     assert checked is not None
+    assert winner is not None
     step = point.configuration.step
     lines = [
         f"{_label(tuning, point)} with steps of {step:g} s: run afresh, the output '{tuning.excitation.output}' is off "
-        f"by at most {_error(tuning, _total(tuning))}, and a simulated second takes "
+        f"by at most {_error(tuning, winner.error)}, and a simulated second takes "
         f"{time_text(checked.ns_per_second)} ({checked.ns_per_step:.0f} ns a step)."
     ]
     if point.result.modelling_error:
@@ -163,12 +162,6 @@ def _none(tuning: Tuning) -> list[str]:
             f"{near.cost.ns_per_step if near.cost else 0.0:.0f} ns, and longer ones are not accurate."
         )
     return lines
-
-
-def _total(tuning: Tuning) -> float:
-    assert tuning.chosen is not None
-    assert tuning.verified is not None
-    return tuning.verified.error + (tuning.chosen.result.modelling_error or 0.0)
 
 
 def _label(tuning: Tuning, point: Point) -> str:

@@ -24,6 +24,7 @@ from tmm_gen.study.point import Point
 from tmm_gen.study.references import References
 from tmm_gen.study.search import Searched, longest_step
 from tmm_gen.study.verify import Verified, verify
+from tmm_gen.study.winner import Winner
 
 Advance = Callable[[float, str], None]
 
@@ -87,9 +88,21 @@ class Tuning:
         return next((each for each in self.by_tolerance[:1] if each.ns_per_second <= equal), None)
 
     @property
+    def winner(self) -> Winner | None:
+        """What keeps all bounds in the least time; None where nothing keeps them."""
+        return self.of_equal_steps if self.cheaper is None else Winner.by_tolerance(self.cheaper)
+
+    @property
+    def of_equal_steps(self) -> Winner | None:
+        """The same among runs of equal steps."""
+        if self.chosen is None or self.verified is None:
+            return None
+        return Winner.of_equal_steps(self.chosen, self.verified)
+
+    @property
     def found(self) -> bool:
         """Whether anything keeps all bounds."""
-        return self.chosen is not None or self.cheaper is not None
+        return self.winner is not None
 
     @property
     def unit(self) -> str:
