@@ -12,7 +12,7 @@ from typing import Any
 import sympy as sp
 
 from tmm_gen.program.statements import Assign, Loop, Order, Repeat, Require, Routine, Until
-from tmm_gen.program.variables import Ref, Role, Variable
+from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable
 
 Values = dict[str, Any]
 """Scalars and lists by :func:`key`."""
@@ -22,7 +22,7 @@ def key(variable: Variable) -> str:
     """Return under which name values hold a variable: signals and scratch may be called like anything else."""
     if variable.role in (Role.INPUT, Role.OUTPUT):
         return f"{variable.role.value} {variable.name}"
-    return f"scratch {variable.name}" if variable.role in (Role.WORK, Role.LOCAL) else variable.name
+    return f"scratch {variable.name}" if variable.role in SCRATCH else variable.name
 
 
 class VanishingPivotError(ArithmeticError):

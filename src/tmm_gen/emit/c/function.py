@@ -18,7 +18,7 @@ from tmm_gen.emit.c.sources import SOURCES
 from tmm_gen.emit.c.structs import described, dimension
 from tmm_gen.emit.expressions import element
 from tmm_gen.program.statements import Loop, Program, Routine
-from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable, refs_in
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class Function:
         return any(self._source(v) == f"{name}->" for v in self.routine.read() | self.routine.written())
 
     def _source(self, variable: Variable) -> str:
-        if variable.role in (Role.WORK, Role.LOCAL):
+        if variable.role in SCRATCH:
             return ""
         if variable.role is Role.COEFFICIENT and variable not in self.program.model:
             return ""  # an intermediate result of prepare

@@ -18,10 +18,10 @@ from tmm_gen.emit.c.printer import CPrinter
 from tmm_gen.emit.c.words import sentence
 from tmm_gen.program.passes.accesses import accesses, first_uses
 from tmm_gen.program.statements import Assign, Loop, Statement
-from tmm_gen.program.variables import Ref, Role, Variable
+from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable
 
 LANE = "k"
-_WIDE = frozenset({Role.TANGENT, Role.INPUT_TANGENT, Role.WORK, Role.LOCAL})
+_WIDE = SCRATCH | {Role.TANGENT, Role.INPUT_TANGENT}
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from tmm_gen.program.statements import Assign, Loop, Mark, Require, Routine, Section, Statement
-from tmm_gen.program.variables import Ref, Role, local
+from tmm_gen.program.passes.rewrite import map_references
+from tmm_gen.program.statements import Assign, Routine, Section
+from tmm_gen.program.variables import Role, local
 
 
 def rounded_last(routine: Routine) -> Routine:
@@ -18,21 +19,6 @@ def rounded_last(routine: Routine) -> Routine:
     if not held:
         return routine
 
-    def moved(statement: Statement) -> Statement:
-        if isinstance(statement, Mark):  # no output repeats anything
-            return statement
-        if isinstance(statement, Loop):
-            return replace(statement, body=tuple(_moved(inner, held) for inner in statement.body))
-        return _moved(statement, held)
-
-    sections = tuple(
-        replace(section, statements=tuple(map(moved, section.statements))) for section in routine.sections
-    )
+    sections = tuple(map_references(s, lambda ref: held.get(ref, ref)) for s in routine.sections)
     end = Section("rounded", tuple(Assign(output, total) for output, total in held.items()))
     return replace(routine, sections=(*sections, end))
-
-
-def _moved(statement: Assign | Require, held: dict[Ref, Ref]) -> Assign | Require:
-    if isinstance(statement, Require):
-        return Require(statement.value.xreplace(held))
-    return Assign(held.get(statement.target, statement.target), statement.value.xreplace(held))

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from tmm_gen.program.arm.binding import Scratch
+from tmm_gen.program.passes.rewrite import map_references
 from tmm_gen.program.statements import Assign, Loop, Section
 from tmm_gen.program.variables import Role, Variable, refs_in
 
@@ -33,19 +33,4 @@ def spread(sections: list[Section], scratch: Scratch, n: int) -> list[Section]:
     }
     arrays = {v.ref: replace(v, role=Role.WORK, length=n).at() for v in names & set_in_loops}
 
-    def changed(statement: Any) -> Any:
-        value = statement.value.xreplace(arrays)
-        if not isinstance(statement, Assign):
-            return replace(statement, value=value)
-        return Assign(arrays.get(statement.target, statement.target), value)
-
-    return [
-        replace(
-            section,
-            statements=tuple(
-                replace(s, body=tuple(changed(x) for x in s.body)) if isinstance(s, Loop) else changed(s)
-                for s in section.statements
-            ),
-        )
-        for section in sections
-    ]
+    return [map_references(section, lambda ref: arrays.get(ref, ref)) for section in sections]

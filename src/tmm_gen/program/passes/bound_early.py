@@ -10,9 +10,7 @@ import sympy as sp
 
 from tmm_gen.program.passes.look import assigns_of, inside
 from tmm_gen.program.statements import Assign, Require, Section
-from tmm_gen.program.variables import Role, Variable, refs_in
-
-SCRATCH = (Role.LOCAL, Role.WORK)
+from tmm_gen.program.variables import SCRATCH, Variable, refs_in
 
 
 def bound_early(sections: list[Section], late_names: Collection[str] = ()) -> set[Variable]:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from tmm_gen.program.passes.bound_early import SCRATCH, bound_early
+from tmm_gen.program.passes.bound_early import bound_early
 from tmm_gen.program.passes.divide import divided, out_of_loops
 from tmm_gen.program.passes.kept import kept_as
 from tmm_gen.program.passes.look import assigns_of, read_by
 from tmm_gen.program.statements import Loop, Require, Section, Statement
-from tmm_gen.program.variables import Ref, Role, Variable
+from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable
 
 
 @dataclass

@@ -8,7 +8,7 @@ in this routine or another.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import sympy as sp
@@ -40,7 +40,7 @@ class Hoister:
             self._target = target
             return self._rewrite(value)
 
-        return map_lines(routine, hoisted)
+        return replace(routine, sections=tuple(map_lines(s, hoisted) for s in routine.sections))
 
     @property
     def coefficients(self) -> tuple[Variable, ...]:

@@ -3,35 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
-import sympy as sp
-
-from tmm_gen.program.statements import Assign, Loop, Repeat, Section
-from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+from tmm_gen.program.passes.rewrite import map_references
+from tmm_gen.program.statements import Section
+from tmm_gen.program.variables import Ref, Role, Variable
 
 
 def kept_as(section: Section, names: dict[Ref, Ref]) -> Section:
     """Return a section that reads and writes values where they are kept, by where they were."""
     places = _Places.of(names)
 
-    def value(e: sp.Expr) -> sp.Expr:
-        found = {r: places.of_ref(r) for r in refs_in(e)}
-        return e.xreplace({r: f for r, f in found.items() if f is not None})
+    def moved(ref: Ref) -> Ref:
+        kept = places.of_ref(ref)
+        return ref if kept is None else kept
 
-    def changed(s: Any) -> Any:
-        if not isinstance(s, Assign):
-            return s if isinstance(s, Repeat) else replace(s, value=value(s.value))
-        moved = places.of_ref(s.target)
-        return Assign(moved if moved is not None else s.target, value(s.value))
-
-    return replace(
-        section,
-        statements=tuple(
-            replace(s, body=tuple(changed(x) for x in s.body)) if isinstance(s, Loop) else changed(s)
-            for s in section.statements
-        ),
-    )
+    return map_references(section, moved)
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 
 import sympy as sp
@@ -12,11 +12,11 @@ from tmm_gen.program.variables import SCRATCH, Ref, Role, refs_in
 
 
 def map_lines(
-    routine: Routine,
+    section: Section,
     value: Callable[[sp.Expr, Ref | None], sp.Expr],
     target: Callable[[Ref], Ref] = lambda ref: ref,
-) -> Routine:
-    """Return the routine with every expression changed, and every reference that is assigned.
+) -> Section:
+    """Return the section with every expression changed, and every reference that is assigned.
 
     Parameters
     ----------
@@ -40,27 +40,27 @@ def map_lines(
             return Until(value(statement.value, None))
         return line(statement)
 
-    sections = tuple(replace(s, statements=tuple(map(changed, s.statements))) for s in routine.sections)
-    return replace(routine, sections=sections)
+    return replace(section, statements=tuple(map(changed, section.statements)))
 
 
-def map_references(routine: Routine, change: Callable[[Ref], Ref]) -> Routine:
-    """Return the routine with every reference changed, read or assigned."""
+def map_references(section: Section, change: Callable[[Ref], Ref]) -> Section:
+    """Return the section with references changed, read or assigned."""
 
     def value(expression: sp.Expr, _: Ref | None) -> sp.Expr:
-        return expression.xreplace({ref: change(ref) for ref in refs_in(expression)})
+        found = {ref: change(ref) for ref in refs_in(expression)}
+        return expression.xreplace({ref: other for ref, other in found.items() if other is not ref})
 
-    return map_lines(routine, value, change)
+    return map_lines(section, value, change)
 
 
 def renamed_scratch(
-    routine: Routine, names: Mapping[str, str], *, roles: tuple[Role, ...] = (Role.WORK, Role.LOCAL)
+    routine: Routine, names: Mapping[str, str], *, roles: Collection[Role] = SCRATCH
 ) -> Routine:
     """Return the routine with some of its scratch under other names.
 
     Parameters
     ----------
-    roles : tuple of Role
+    roles : collection of Role
         Of what is renamed; what was no scratch becomes it.
     """
 
@@ -72,7 +72,7 @@ def renamed_scratch(
         role = variable.role if variable.role in SCRATCH else scratch
         return Ref(replace(variable, name=names[variable.name], role=role), ref.offset, ref.entry)
 
-    return map_references(routine, other)
+    return replace(routine, sections=tuple(map_references(s, other) for s in routine.sections))
 
 
 def keep_assignments(routine: Routine, keep: Callable[[Assign], bool]) -> Routine:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 
 import sympy as sp
@@ -22,11 +22,12 @@ from tmm_gen.program.arm.at_places import BASE, hub_unknown
 from tmm_gen.program.arm.base import base_acceleration
 from tmm_gen.program.arm.binding import Binding
 from tmm_gen.program.arm.branches import resumed
+from tmm_gen.program.passes.rewrite import map_lines
 from tmm_gen.program.sensitivities.kept import kept_symbols, solved_acceleration
 from tmm_gen.program.sensitivities.point import Point
 from tmm_gen.program.sensitivities.walks import TangentableWalks
-from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
-from tmm_gen.program.variables import refs_in
+from tmm_gen.program.statements import Assign, Order, Section, Statement
+from tmm_gen.program.variables import Ref, refs_in
 
 ZERO = sp.Integer(0)
 HUB_PIVOT = sp.Symbol("hub_pivot", real=True)
@@ -55,7 +56,13 @@ class TangentWalks(TangentableWalks):
             Section("sweep outward: the change of each station's unknown", tuple(self.answers())),
         ]
         names = {name: point.kept(name) for name in kept}
-        return [replace(s, statements=tuple(_with_point(x, names) for x in s.statements)) for s in found]
+
+        def at_point(expression: sp.Expr, _: Ref | None) -> sp.Expr:
+            """Read kept values from the point of linearisation."""
+            there = {r: names.get(r.variable.name) for r in refs_in(expression)}
+            return expression.xreplace({ref: kept for ref, kept in there.items() if kept is not None})
+
+        return [map_lines(section, at_point) for section in found]
 
     def joint_forces(self) -> list[Statement]:
         """Return the changes of the joints' forces: what is constant in their laws does not change."""
@@ -140,15 +147,3 @@ def _early(lines: Iterable[Line]) -> list[Line]:
         if isinstance(line, Let) and line.symbol.name.endswith("_impedance"):
             found.append(line)
     return found
-
-
-def _with_point(statement: Statement, names: Mapping[str, sp.Expr | None]) -> Statement:
-    """Read kept values from the point of linearisation."""
-
-    def value(e: sp.Expr) -> sp.Expr:
-        found = {r: names[r.variable.name] for r in refs_in(e) if names.get(r.variable.name) is not None}
-        return e.xreplace(found)
-
-    if isinstance(statement, Loop):
-        return replace(statement, body=tuple(replace(x, value=value(x.value)) for x in statement.body))
-    return replace(statement, value=value(statement.value))

@@ -33,7 +33,7 @@ def as_tangent(routine: Routine) -> Routine:
             return Ref(change_of(ref.variable), ref.offset, ref.entry)
         return ref
 
-    return map_references(routine, changed)
+    return replace(routine, sections=tuple(map_references(s, changed) for s in routine.sections))
 
 
 def linear_sensitivities(
