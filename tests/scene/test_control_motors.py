@@ -119,8 +119,8 @@ def test_one_number_is_for_all() -> None:
             "[control.bounds]",
             "[control.sensors]\nstrain = 0.1\n[control.bounds]",
             "control.sensors.strain",
-            "the motor 'first' carries no beam that bends, on which a gauge could be (got 0.1). Name others that "
-            "do, such as { second = 0.01 }.",
+            "the motor 'first' carries no beam that bends, on which a gauge could be (got 0.1). Name others, "
+            "such as `strain = { second = 0.1 }`, or remove it.",
         ),
         (
             "[control.bounds]",

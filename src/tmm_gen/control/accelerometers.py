@@ -14,10 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.motor_rows import Motors
-from tmm_gen.control.sensor_key import where
 from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.space_motors import SpaceMotors
-from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 from tmm_gen.scene.spatial.arm import SpatialArm
 
@@ -106,21 +104,11 @@ def _about(ca: Any, axis: int, angle: Any) -> Any:
 
 
 def accelerometer_of(scene: Scene, motors: Motors, motor: int) -> PlanarAccelerometer | SpaceAccelerometer:
-    """Return that at the tip of a motor, counted from 0.
-
-    Raises
-    ------
-    UserError
-        If the tip stays where it is as the motor turns.
-    """
+    """Return that at the tip of a motor, counted from 0."""
     if scene.spatial is None:
         return PlanarAccelerometer(motors.lengths[: motors.each[motor].end], scene.model.gravity or 0.0)
     assert isinstance(motors, SpaceMotors)
     tip = motors.ends[motor]
-    if tip is None:
-        raise UserError(
-            f"{where(scene, 'accelerometer')}: what '{motors.names[motor]}' carries ends on "
-            "its axis, where nothing can be felt of its turning. Name other motors."
-        )
+    assert tip is not None  # rules/control_sensors.py sees to it
     frame = SpaceFrame(scene.spatial, tip.frame)
     return SpaceAccelerometer(scene.spatial, frame.joints, np.array(tip.frame.at), tip.across)

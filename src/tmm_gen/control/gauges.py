@@ -15,17 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.motor_rows import Motors
-from tmm_gen.control.sensor_key import where
-from tmm_gen.errors import UserError
-from tmm_gen.modal.space.numbers import ArmNumbers
-from tmm_gen.modal.space.still import Still
+from tmm_gen.control.space_motors import motor_ends
 from tmm_gen.scene import Scene
-from tmm_gen.scene.spatial.beam import CellName
+from tmm_gen.scene.spatial.motor_ends import Bend
 
 Array = NDArray[np.float64]
-
-_ASKEW = 0.1
-"""A beam of whose bending so small a part is about its motor's axis shows nothing of what the motor does."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,24 +86,9 @@ class Gauge:
 
 
 def site_of(scene: Scene, motors: Motors, motor: int) -> Site:
-    """Return where the gauge of a motor is, counted from 0.
-
-    Raises
-    ------
-    UserError
-        If it carries no beam that bends about its axis.
-    """
-    for beam in _carried(scene, motors, motor):
-        springs = list(_springs(scene, motors, motor, beam))
-        if springs:
-            return Site(beam, min(spring.place for spring in springs))
-    name = motors.names[motor]
-    others = [each for k, each in enumerate(motors.names) if k != motor]
-    raise UserError(
-        f"{where(scene, 'strain')}: the motor '{name}' carries no beam that bends about its axis, "
-        "on which a gauge could be. "
-        + (f"Name others that do, such as {{ {others[-1]} = 0.01 }}." if others else "Remove the key.")
-    )
+    """Return where the gauge of a motor is, counted from 0: on the first beam it carries that bends about its axis."""
+    beam = _beam(scene, motors, motor)
+    return Site(beam, min(spring.place for spring in _springs(scene, motors, motor, beam)))
 
 
 def _shares(places: Array, place: float) -> Array:
@@ -117,26 +96,20 @@ def _shares(places: Array, place: float) -> Array:
     return np.array([np.interp(place, places, unit) for unit in np.eye(len(places))])
 
 
-def _carried(scene: Scene, motors: Motors, motor: int) -> list[str]:
-    """Return the beams that a motor carries and no motor behind it does, the innermost first."""
+def _beam(scene: Scene, motors: Motors, motor: int) -> str:
+    """Return the name of that beam; the scene's rules see to it that there is one."""
     here = motors.each[motor]
-    if scene.spatial is None:
-        return [
-            part.name for part in scene.parts if part.kind == "beam" and here.place < part.first <= here.end
-        ]
-    driven = {each.place for each in motors.each}
-    joints, found = scene.spatial.joints, []
-    for name in _beams(scene):
-        number = min(number for number, _ in _bends(scene, name))
-        while number and number - 1 not in driven:
-            number = joints[number - 1].host
-        if number - 1 == here.place:
-            found.append(name)
-    return found
+    if scene.spatial is not None:
+        return _bends(scene, motors, motor)[0]
+    return next(
+        part.name
+        for part in scene.parts
+        if part.kind == "beam" and here.place < part.first <= here.end and part.last > part.first
+    )
 
 
 def _springs(scene: Scene, motors: Motors, motor: int, beam: str) -> Iterator[Spring]:
-    """Yield the springs of a beam that a motor carries."""
+    """Yield the springs of a beam that a motor carries, from its root."""
     size = len(motors.lengths)
     if scene.spatial is None:
         part = next(part for part in scene.parts if part.name == beam)
@@ -147,29 +120,22 @@ def _springs(scene: Scene, motors: Motors, motor: int, beam: str) -> Iterator[Sp
             bend[number - 1], bend[number - 2] = 1.0, -1.0
             yield Spring(place, scene.joints[number - 1].stiffness, scene.joints[number - 1].damping, bend)
         return
-    axes = Still(ArmNumbers(scene.spatial), np.zeros(size), {}).axes
-    bends = list(_bends(scene, beam))
-    piece = _beams(scene)[beam] / max(cell.number for _, cell in bends)
-    about = {cell.way: float(axes[motors.each[motor].place] @ axes[number - 1]) for number, cell in bends}
-    if max(map(abs, about.values())) < _ASKEW:
-        return
-    for number, cell in bends:
-        joint = scene.spatial.joints[number - 1]
+    name, bends = _bends(scene, motors, motor)
+    assert name == beam
+    entries: Any = scene.source.data["beam"]
+    length = next(float(entry["length"]) for entry in entries if entry["name"] == beam)
+    cell = length / max(each.cell for each in bends)
+    for each in bends:
+        joint = scene.spatial.joints[each.number - 1]
         bend = np.zeros(size)
-        bend[number - 1] = about[cell.way]
-        yield Spring((cell.number - 0.5) * piece, joint.stiffness, joint.damping, bend)
+        bend[each.number - 1] = each.about
+        yield Spring((each.cell - 0.5) * cell, joint.stiffness, joint.damping, bend)
 
 
-def _beams(scene: Scene) -> dict[str, float]:
-    """Return the lengths of the beams of an arm in space that bend, m."""
-    entries: Any = scene.source.data.get("beam", [])
-    return {entry["name"]: float(entry["length"]) for entry in entries if list(_bends(scene, entry["name"]))}
-
-
-def _bends(scene: Scene, beam: str) -> Iterator[tuple[int, CellName]]:
-    """Yield the joints in which a beam in space bends: number, and name."""
-    assert scene.spatial is not None
-    for number, joint in enumerate(scene.spatial.joints, start=1):
-        cell = CellName.of(joint.name)
-        if cell is not None and cell.beam == beam and cell.way != "twist":
-            yield number, cell
+def _bends(scene: Scene, motors: Motors, motor: int) -> tuple[str, tuple[Bend, ...]]:
+    """Return the beam in space on which the gauge of a motor is, and the joints in which it bends."""
+    # how joints that motors turn are told matters not: no other motor is between a motor and its beam
+    ends = motor_ends(scene, {each.place + 1: 0.0 for each in motors.each})
+    found = ends.bends(motors.each[motor].place + 1)
+    assert found is not None  # rules/control_sensors.py sees to it
+    return found

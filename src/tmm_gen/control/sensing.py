@@ -122,12 +122,6 @@ class Sensing:
 
 
 def sites_of(scene: Scene, motors: Motors, problem: ControlProblem) -> tuple[Site | None, ...]:
-    """Return where gauges are, by the cells of the scene that tells of them; None where there is none.
-
-    Raises
-    ------
-    UserError
-        If one is where no beam is.
-    """
+    """Return where gauges are, by the cells of the scene that tells of them; None where there is none."""
     there = ~np.isnan(problem.gauges)
     return tuple(site_of(scene, motors, k) if each else None for k, each in enumerate(there))

@@ -13,6 +13,8 @@ so is linear; where a tip is near the motor's axis, only the hub counts.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -24,12 +26,10 @@ from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.still import Still
 from tmm_gen.scene.each import by_names
 from tmm_gen.scene.scene import Scene
-from tmm_gen.scene.spatial.arm import Frame, SpatialArm
+from tmm_gen.scene.spatial.arm import Frame
+from tmm_gen.scene.spatial.motor_ends import MotorEnds
 
 Array = NDArray[np.float64]
-
-_NEAR = 0.05
-"""A tip nearer to its motor's axis than that, relative to the way along the arm, has no angle about it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,26 +103,38 @@ def space_motors(scene: Scene, reference: Array | None = None) -> SpaceMotors:
         reference = np.array(by_names(scene.control.reference, tuple(motor.name for motor in each)))
     posture = np.array([joint.rest if joint.stiffness else 0.0 for joint in arm.joints])
     posture[places] = 0.0 if reference is None else reference
-    numbers = ArmNumbers(arm)
-    still, ways, rows = Still(numbers, posture, {}), _ways(arm), np.zeros((len(each), numbers.size))
+    numbers, carried = ArmNumbers(arm), motor_ends(scene, {place + 1: posture[place] for place in places})
+    still, rows = Still(numbers, posture, {}), np.zeros((len(each), numbers.size))
     ends: list[Tip | None] = []
     for row, place in zip(rows, places, strict=True):
         row[place] = 1.0
+        tip = carried.tip(place + 1)
         ends.append(None)
-        carried = [frame for frame in arm.frames if frame.joint and numbers.ways[frame.joint - 1, place]]
-        # of frames as far away the last is on what is outermost
-        tip = max(reversed(carried), key=lambda frame: ways[frame.joint] + _length(frame.at), default=None)
         if tip is None:
             continue
         moved = still.moved(tip)[0][:, 6:]
         own = moved[:, place]
-        if np.linalg.norm(own) > _NEAR * numbers.reach:
-            given_way = (own @ moved) / (own @ own)
-            given_way[[*places, *range(place)]] = 0.0
-            row += given_way
-            ends[-1] = Tip(tip, still.facing[tip.joint - 1] @ own / np.linalg.norm(own))
-    lengths = np.array([_length(joint.at) for joint in arm.joints])
+        given_way = (own @ moved) / (own @ own)
+        given_way[[*places, *range(place)]] = 0.0
+        row += given_way
+        ends[-1] = Tip(tip, still.facing[tip.joint - 1] @ own / np.linalg.norm(own))
+    lengths = np.array([math.hypot(*joint.at) for joint in arm.joints])
     return SpaceMotors(each, lengths, on_hub=False, rows=rows, ends=tuple(ends))
+
+
+def motor_ends(scene: Scene, reference: Mapping[int, float]) -> MotorEnds:
+    """Return what motors carry.
+
+    Parameters
+    ----------
+    reference : mapping from int to float
+        Angles of their joints, by numbers from 1, rad.
+    """
+    arm = scene.spatial
+    assert arm is not None
+    entries = scene.source.data.get("beam", [])
+    assert isinstance(entries, list)
+    return MotorEnds(arm, tuple(str(entry["name"]) for entry in entries), reference)
 
 
 def outer_bodies(scene: Scene) -> tuple[str, ...]:
@@ -135,15 +147,3 @@ def outer_bodies(scene: Scene) -> tuple[str, ...]:
     assert isinstance(entries, list)
     names = (str(entry["name"]) for entry in entries)
     return tuple(name for name in names if joints[name] and joints[name] not in carrying)
-
-
-def _ways(arm: SpatialArm) -> list[float]:
-    """Return how far it is along the arm to each joint, m; first to the base."""
-    found = [0.0]
-    for joint in arm.joints:
-        found.append(found[joint.host] + _length(joint.at))
-    return found
-
-
-def _length(vector: tuple[float, float, float]) -> float:
-    return float(np.linalg.norm(vector))

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.problem import control_problem
 from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.target import rest_with
-from tmm_gen.errors import UserError
 from tmm_gen.reference.spatial_places import Tree
-from tmm_gen.scene import Scene, SceneError
+from tmm_gen.scene import Scene, SceneError, parse_scene
+from tmm_gen.scene.spatial.motor_ends import MotorEnds
 
 
 def test_accelerometers_feel_second_differences_of_places(reach: Scene) -> None:
@@ -50,18 +49,72 @@ def test_a_gauge_shows_what_hangs_beyond_it(reach: Scene) -> None:
     assert len(Bench.of(fine).step.sensing.gauges) == 2
 
 
-def test_where_nothing_can_be_shown_the_scene_is_refused(reach: Scene) -> None:
-    """The yaw carries a motor; the remedy that is told works."""
-    for told in (0.1, {"yaw": 0.1, "lift": 0.1}):
-        with pytest.raises(SceneError, match=r"'yaw' carries no beam .* \{ lift = 0\.01 \}"):
+def test_where_nothing_can_be_shown_the_scene_is_refused(reach: Scene, words: str) -> None:
+    """With its line, and by a remedy that works; the yaw carries a motor."""
+    for told, key in ((0.1, "strain"), ({"yaw": 0.1, "lift": 0.1}, "strain.yaw")):
+        with pytest.raises(
+            SceneError, match=r"'yaw' carries no beam .* `strain = \{ lift = 0\.1 \}`"
+        ) as caught:
             reach.replace(**{"control.sensors.strain": told})
-    assert Bench.of(reach.replace(**{"control.sensors.strain": {"lift": 0.01}})).step.sensing.gauges[1]
-    upright = reach.replace(
-        **{
-            "motor.lift.axis": "x",
-            "control.sensors.accelerometer": 0.1,
-        }
+        assert [problem.key for problem in caught.value.problems] == [f"control.sensors.{key}"]
+    assert Bench.of(reach.replace(**{"control.sensors.strain": {"lift": 0.1}})).step.sensing.gauges[1]
+    sensors = "[control.sensors]\naccelerometer = 0.1\nstrain = { lift = 0.2 }"
+    text = words.replace("[control.sensors]", sensors)
+    along = text.replace('on = "yaw"\naxis = "y"', 'on = "yaw"\naxis = "x"')
+    with pytest.raises(SceneError) as caught:
+        parse_scene(along, "along.toml")
+    line = 1 + text[: text.index("accelerometer = 0.1")].count("\n")
+    felt, bent = map(str, caught.value.problems)
+    assert felt == (
+        f"along.toml:{line}: control.sensors.accelerometer: the tip of the motor 'lift', the end of 'payload', is on "
+        "its axis, where nothing is felt of its turning (got 0.1). Name others, such as "
+        "`accelerometer = { yaw = 0.1 }`, or remove it."
     )
-    with pytest.raises(UserError, match="what 'lift' carries ends on its axis"):
-        _ = Bench.of(upright).step.sensing
-    assert control_problem(upright).count == 2
+    assert bent == (
+        f"along.toml:{line + 1}: control.sensors.strain.lift: the beam of the motor 'lift' does not bend about its "
+        "axis (got 0.2). Remove the key."
+    )
+    mended = along.replace("accelerometer = 0.1", "accelerometer = { yaw = 0.1 }")
+    assert Bench.of(parse_scene(mended.replace("strain = { lift = 0.2 }\n", ""))).step.sensing.accelerometers[
+        0
+    ]
+
+
+HINGE = """\
+[[joint]]
+name = "hinge"
+on = "lift"
+axis = "x"
+stiffness = 50.0
+rest = 1.2
+"""
+
+
+def test_what_is_refused_is_what_does_not_move(words: str) -> None:
+    """Axes drawn at random, a spring that is slack askew: the rules beside places and axes of the reference."""
+    random, counted = np.random.default_rng(3), np.zeros((2, 2), int)
+    bent = words.replace("[[beam]]", HINGE + "[[beam]]").replace(
+        'name = "upper"\non = "lift"', 'name = "upper"\non = "hinge"'
+    )
+    for apart in np.tile([0.01, 0.07, 0.3], 13):
+        axis = [1.0, *random.normal(scale=apart, size=2).tolist()]
+        text = bent.replace('on = "yaw"\naxis = "y"', f'on = "yaw"\naxis = {axis}')
+        turn = [0.0, *random.normal(scale=apart, size=2).tolist()]
+        arm = parse_scene(text.replace('on = "hinge"', f'on = "hinge"\nturn = {turn}')).spatial
+        assert arm is not None
+        posture = np.array([0.8, 0.2, 1.2, 0.0, 0.0])
+        payload, tree = SpaceFrame.of(arm, "payload"), Tree(arm)
+        ends = MotorEnds(arm, ("upper",), {1: 0.8, 2: 0.2})
+        moved = payload.place(posture + 1e-6 * np.eye(5)[1]) - payload.place(posture)
+        felt = np.linalg.norm(moved) / 1e-6 > 0.05 * 0.6
+        assert (ends.tip(2) is not None) == felt
+        axes = tree.places(posture).axis
+        about = axes[3:] @ axes[1]
+        found = ends.bends(2)
+        assert (found is not None) == (np.max(np.abs(about)) >= 0.1)
+        if found:
+            assert [bend.about for bend in found[1]] == pytest.approx(about.tolist(), abs=1e-12)
+        assert ends.bends(1) is None
+        counted[0, int(felt)] += 1
+        counted[1, int(found is not None)] += 1
+    assert np.all(counted > 4)

@@ -8,7 +8,7 @@ from tmm_gen.scene.control import Control
 from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.rules.control import told_by_name, within_reach
-from tmm_gen.scene.rules.control_sensors import beams_in_plane, gauges_on_beams
+from tmm_gen.scene.rules.control_sensors import sensed_in_plane
 from tmm_gen.scene.rules.control_trajectory import can_be_followed
 from tmm_gen.scene.table import closest
 
@@ -39,7 +39,7 @@ def motors_controlled(document: PartsDocument) -> Iterator[Finding]:
         yield from broken
         return
     yield from can_be_followed(document, control, motors)
-    yield from gauges_on_beams(control, motors, beams_in_plane(document, motors))
+    yield from sensed_in_plane(document, control, motors)
 
 
 def motors_told(control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:

@@ -5,13 +5,11 @@ Featherstone's articulated bodies. With the joints' forces left out, the sweep n
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tmm_gen.scene.spatial.arm import Revolute, RigidBody, Turn, Vector
-
-Block = tuple[Vector, Vector, Vector]
+from tmm_gen.scene.spatial.turns import Block, across, product, transposed, turned_about
 
 NONE: Block = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
@@ -50,14 +48,14 @@ class Articulated:
 
     def moved(self, turn: Turn, at: Vector) -> Articulated:
         """Return it about the point and in the axes of a frame in which its own has a place and a turn."""
-        m, h, j = (_product(_product(turn, x), _transposed(turn)) for x in (self.m, self.h, self.j))
-        across = _cross(at)
-        mass = _product(m, across)
-        arm = _product(_transposed(h), across)  # its transpose is minus the cross matrix times h
+        m, h, j = (product(product(turn, x), transposed(turn)) for x in (self.m, self.h, self.j))
+        cross = across(at)
+        mass = product(m, cross)
+        arm = product(transposed(h), cross)  # its transpose is minus the cross matrix times h
         return Articulated(
             m,
             _sum(h, mass, -1.0),
-            _sum(_sum(j, _sum(arm, _transposed(arm)), -1.0), _product(across, mass), -1.0),
+            _sum(_sum(j, _sum(arm, transposed(arm)), -1.0), product(cross, mass), -1.0),
         )
 
 
@@ -65,11 +63,11 @@ def body_inertia(body: RigidBody) -> Articulated:
     """Return that of a rigid body about its frame's origin."""
     m, c = body.mass, body.center
     xx, yy, zz, xy, xz, yz = body.inertia
-    across = _cross(c)
-    moment = tuple(tuple(m * value for value in row) for row in across)
+    cross = across(c)
+    moment = tuple(tuple(m * value for value in row) for row in cross)
     about = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
     mass = ((m, 0.0, 0.0), (0.0, m, 0.0), (0.0, 0.0, m))
-    return Articulated(mass, _times(across, -m), _sum(about, _product(across, moment), -1.0))
+    return Articulated(mass, _times(cross, -m), _sum(about, product(cross, moment), -1.0))
 
 
 @dataclass(frozen=True)
@@ -118,39 +116,11 @@ def pivots(joints: Sequence[Revolute], nearest_only: bool = False) -> tuple[Pivo
         found.append(pivot)
         if alone[joint.host]:
             continue
-        turn = _product(joint.turn, _turned(axis, joint.angle))
+        turn = product(joint.turn, turned_about(axis, joint.angle))
         left = free[number] if pivot.vanishes else free[number].free(axis, pivot.free)
         free[joint.host] += left.moved(turn, joint.at)
         locked[joint.host] += locked[number].moved(turn, joint.at)
     return tuple(reversed(found))
-
-
-def _turned(axis: int, angle: float) -> Turn:
-    c, s = math.cos(angle), math.sin(angle)
-    if axis == 0:
-        return (1.0, 0.0, 0.0), (0.0, c, -s), (0.0, s, c)
-    if axis == 1:
-        return (c, 0.0, s), (0.0, 1.0, 0.0), (-s, 0.0, c)
-    return (c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)
-
-
-def _cross(a: Vector) -> Block:
-    x, y, z = a
-    return (0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)
-
-
-def _product(a: Sequence[Sequence[float]], b: Sequence[Sequence[float]]) -> Block:
-    (b00, b01, b02), (b10, b11, b12), (b20, b21, b22) = b
-    x, y, z = (
-        (p * b00 + q * b10 + r * b20, p * b01 + q * b11 + r * b21, p * b02 + q * b12 + r * b22)
-        for p, q, r in a
-    )
-    return x, y, z
-
-
-def _transposed(a: Block) -> Block:
-    x, y, z = zip(*a, strict=True)
-    return x, y, z
 
 
 def _sum(a: Sequence[Sequence[float]], b: Sequence[Sequence[float]], factor: float = 1.0) -> Block:

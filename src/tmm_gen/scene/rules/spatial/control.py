@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.control_motors import motors_told
-from tmm_gen.scene.rules.control_sensors import beams_in_space, gauges_on_beams
+from tmm_gen.scene.rules.control_sensors import sensed_in_space
 from tmm_gen.scene.rules.control_trajectory import can_be_kept, no_trajectory
 from tmm_gen.scene.spatial.document import SpatialDocument
 
@@ -30,4 +30,4 @@ def motors_in_space_controlled(document: SpatialDocument) -> Iterator[Finding]:
     yield from can_be_kept(control, frames, "xyz")
     motors = tuple(name for name, number in numbers.items() if number in turned)
     broken = list(motors_told(control, motors))
-    yield from broken or gauges_on_beams(control, motors, beams_in_space(document, motors))
+    yield from broken or sensed_in_space(document, control, motors)
