@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tmm_gen.cli import mpc_tune
+from tmm_gen.closed_loop import pricing
 from tmm_gen.closed_loop.knobs import Tunable, number, places_of, turned
 from tmm_gen.closed_loop.loop import Loop
 from tmm_gen.closed_loop.objective import AIMS, NOISES, objective, price
@@ -141,6 +143,17 @@ def test_refining_begins_where_the_scene_stands(bench: Bench) -> None:
     assert BY_NAME["pd"].knobs[0].place(0.0) == 0.0
 
 
+def test_nothing_worse_than_the_scene_comes_of_it(bench: Bench) -> None:
+    """Also where the search never comes near its numbers."""
+    for name in ("pd", "lqr", "mpc"):
+        tunable = BY_NAME[name]
+        best = turned(bench.scene, tunable, np.full(len(tunable.knobs), 0.3))
+        kept = tune(best, tunable, 20, 1, pricing=OneByOne(bench, valley(tunable)))
+        assert kept.kept
+        assert kept.scene == best
+        assert kept.price == kept.price_before
+
+
 def test_processes_side_by_side_find_the_same_numbers(bench: Bench) -> None:
     """Also what is broken off is broken off alike."""
     tunable = BY_NAME["pd"]
@@ -220,7 +233,10 @@ def test_a_comment_stays_in_its_column(repository: Path) -> None:
 def test_the_command_writes_the_scene_with_the_numbers_found(
     tmm_gen: Call, tmp_path: Path, repository: Path
 ) -> None:
-    scene = repository / "scenes" / "swing.toml"
+    tuned = repository / "scenes" / "swing.toml"
+    scene = tmp_path / "slack.toml"
+    gains = tuned.read_text().split("pd = [")[1].split("]")[0]
+    scene.write_text(tuned.read_text().replace(f"pd = [{gains}]", "pd = [0.1, 0.05]"))
     done = tmm_gen("mpc", scene, "--tune", "pd", "--evaluations", "20", "--out", "tuned.toml", "--json")
     assert done.returncode == 0, done.stderr
     shown = json.loads(done.stdout)
@@ -234,3 +250,22 @@ def test_the_command_writes_the_scene_with_the_numbers_found(
     refused = tmm_gen("mpc", missing, "--tune", "pd-zv", "--out", "tuned.toml", "--force")
     assert refused.returncode == 2
     assert "control.baselines.pd_zv" in refused.stderr
+
+
+def test_the_command_writes_what_was_there_where_nothing_better_is_found(
+    bench: Bench,
+    tmp_path: Path,
+    repository: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """To the letter; a price that the scene's own numbers alone do not pay stands for that of a long search."""
+    monkeypatch.setattr(
+        pricing, "OneByOne", lambda own: OneByOne(own, lambda tried, *_: float(tried.scene is not own.scene))
+    )
+    scene, out = repository / "scenes" / "swing.toml", tmp_path / "same.toml"
+    mpc_tune.tuned(scene, bench, ("pd", "lqr"), 20, 0, 1, False, out, False, False)
+    shown = capsys.readouterr().out
+    for name in ("pd", "lqr"):
+        assert f"{name}: 0.000 with the numbers the scene had, which stay: nothing better was found" in shown
+    assert out.read_text() == scene.read_text()

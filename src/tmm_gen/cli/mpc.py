@@ -89,7 +89,7 @@ _MOVING = (".gif", ".html")
     is_flag=False,
     flag_value=EVERYTHING,
     help="Tune gains and weights, all or those of one name (--list shows them; repeatable); no comparison. The "
-    "numbers in SCENE play no part, unless --refine is given.",
+    "numbers in SCENE play no part in the search, unless --refine is given, and stay where it finds nothing better.",
 )
 @click.option(
     "--evaluations",

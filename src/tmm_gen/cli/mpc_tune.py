@@ -96,7 +96,8 @@ def tuned(
             scene = found[-1].scene
     written = []
     if out is not None:
-        written = write_outputs({out: _text(file, found[-1].scene, wanted)}, force=force)
+        better = [item.tunable for item in found if not item.kept]
+        written = write_outputs({out: _text(file, found[-1].scene, better)}, force=force)
     _show(found, evaluations, seed, written, json_mode)
 
 
@@ -116,14 +117,20 @@ def _text(file: Path, scene: Scene, tunables: Iterable[Tunable]) -> str:
 
 
 def _show(found: list[Tuned], evaluations: int, seed: int, files: list[Path], json_mode: bool) -> None:
-    from tmm_gen.closed_loop.knobs import number
+    from tmm_gen.closed_loop.knobs import told
 
     rows: list[dict[str, object]] = []
     for item in found:
         for key in item.tunable.keys:
-            rows.append({"tuned": item.tunable.name, "key": key, "value": number(item.scene, key)})
+            rows.append({"tuned": item.tunable.name, "key": key, "value": told(item.scene, key)})
     prices = [
-        {"tuned": item.tunable.name, "price": item.price, "price_before": item.price_before} for item in found
+        {
+            "tuned": item.tunable.name,
+            "price": item.price,
+            "price_before": item.price_before,
+            "kept": item.kept,
+        }
+        for item in found
     ]
     facts = {"evaluations": evaluations, "seed": seed, "prices": prices, "files": files}
     columns: list[Column | str] = ["tuned", "key", Column("value", form=_written)]
@@ -131,13 +138,17 @@ def _show(found: list[Tuned], evaluations: int, seed: int, files: list[Path], js
     if json_mode:
         return
     for item in found:
-        click.echo(
-            f"{item.tunable.name}: {item.price:.3f}, {item.price_before:.3f} with the numbers the scene had"
-        )
+        before = f"{item.price_before:.3f} with the numbers the scene had"
+        if item.kept:
+            click.echo(f"{item.tunable.name}: {before}, which stay: nothing better was found")
+        else:
+            click.echo(f"{item.tunable.name}: {item.price:.3f}, {before}")
     say_written(files, "--out FILE writes the tuned scene")
 
 
 def _written(value: object) -> str:
     from tmm_gen.scene.rewrite import as_written
 
+    if value is None:
+        return "by default"
     return as_written(value) if isinstance(value, tuple | dict) else str(value)

@@ -107,11 +107,17 @@ def turned(scene: Scene, tunable: Tunable, places: Array) -> Scene:
     return scene.replace(**changes)
 
 
-def number(scene: Scene, key: str) -> Number | dict[str, Number]:
-    """Return a number of a scene, or a list of them, by its dotted key, or those by names; zeros where it has none."""
+def told(scene: Scene, key: str) -> Number | dict[str, Number] | None:
+    """Return a number of a scene, or a list of them, by its dotted key, or those by names; None where it has none."""
     value: Any = scene
     for part in key.split("."):
         value = getattr(value, part)
+    return value  # type: ignore[no-any-return]
+
+
+def number(scene: Scene, key: str) -> Number | dict[str, Number]:
+    """Return the same; zeros where the scene has none."""
+    value = told(scene, key)
     return (0.0, 0.0) if value is None else value
 
 

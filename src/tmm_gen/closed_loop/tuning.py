@@ -1,7 +1,8 @@
 """Every controller tuned by the same optimiser, on the same objective, with the same number of closed loops.
 
 The logarithms of gains or weights are searched (:mod:`tmm_gen.closed_loop.search`), over ranges; the scene's own
-numbers play no part, unless they are to be refined. Predictive control without bounds is the regulator of the same
+numbers play no part in that, unless they are to be refined. They are one of the candidates, and stay where nothing
+better is found. Predictive control without bounds is the regulator of the same
 weights, whose loops cost a tenth: so weights and estimator of a regulator are searched first, and predictive control
 begins at one of the valleys found there, that which is the best for itself: a regulator by modes bears estimators
 that others do not.
@@ -55,6 +56,11 @@ class Tuned:
     price_before: float
     ends: tuple[Array, ...]
 
+    @property
+    def kept(self) -> bool:
+        """Whether nothing better was found than the numbers the scene had, which stay."""
+        return not self.price < self.price_before
+
 
 def tune(
     scene: Scene,
@@ -65,7 +71,7 @@ def tune(
     pricing: Pricing | None = None,
     refine: bool = False,
 ) -> Tuned:
-    """Return the best tuning found.
+    """Return the best tuning found: that of the scene itself where no other costs less.
 
     Parameters
     ----------
@@ -96,7 +102,8 @@ def tune(
         first = tune(scene, tunable.first, evaluations // 2, seed, advance, pricing)
         begins = [_begin(tunable, tunable.first, end) for end in first.ends]
         evaluations -= evaluations // 2
-    best = (math.inf, scene, np.zeros(0))
+    (before,) = pricing([scene], tunable.controllers, math.inf)
+    best = (before, scene, places_of(scene, tunable))
 
     def prices(points: Sequence[Array], enough: float) -> list[float]:
         nonlocal best
@@ -112,9 +119,6 @@ def tune(
                 advance(best[0])
         return found
 
-    (before,) = pricing([scene], tunable.controllers, math.inf)
-    if refine:  # what is there already is not given up for something worse
-        best = (before, scene, places_of(scene, tunable))
     if begins:
         ends = search_nearby(prices, begins, evaluations, seed)
     else:
