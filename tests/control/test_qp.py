@@ -7,7 +7,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.control.command import Status
+from tmm_gen.control.iterations import at_first
 from tmm_gen.control.qp import QuadraticProgram
+
+LIMIT = 200
+"""Iterations, more than any of these takes."""
 
 
 def random_problem(seed: int, size: int = 12, rows: int = 8) -> tuple[np.ndarray, ...]:
@@ -23,7 +27,7 @@ def test_the_solution_satisfies_the_conditions_of_optimality(seed: int) -> None:
     hessian, rows, gradient = random_problem(seed)
     size = len(hessian)
     low, high = np.full(size + len(rows), -0.5), np.full(size + len(rows), 0.7)
-    solution = QuadraticProgram(hessian, rows, size).solve(gradient, low, high)
+    solution = QuadraticProgram(hessian, rows, size, LIMIT).solve(gradient, low, high)
     assert solution.status is Status.OK
     whole = np.vstack([np.eye(size), rows])
     values = whole @ solution.point
@@ -41,10 +45,10 @@ def test_the_solution_satisfies_the_conditions_of_optimality(seed: int) -> None:
 def test_a_warm_start_changes_nothing() -> None:
     hessian, rows, gradient = random_problem(7)
     low, high = np.full(20, -0.5), np.full(20, 0.5)
-    program = QuadraticProgram(hessian, rows, 12)
+    program = QuadraticProgram(hessian, rows, 12, LIMIT)
     for turn in range(4):
         asked = (1.0 - 0.5 * turn) * gradient
-        fresh = QuadraticProgram(hessian, rows, 12).solve(asked, low, high)
+        fresh = QuadraticProgram(hessian, rows, 12, LIMIT).solve(asked, low, high)
         assert_allclose(program.solve(asked, low, high).point, fresh.point, atol=1e-7)
     program.forget()
     assert_allclose(program.solve(asked, low, high).point, fresh.point, atol=1e-7)
@@ -54,18 +58,18 @@ def test_new_hessians_and_rows_are_taken() -> None:
     hessian, rows, gradient = random_problem(1)
     other, more, _ = random_problem(2)
     low, high = np.full(20, -0.5), np.full(20, 0.5)
-    program = QuadraticProgram(hessian, rows, 12)
+    program = QuadraticProgram(hessian, rows, 12, LIMIT)
     program.solve(gradient, low, high)
     changed = program.solve(gradient, low, high, hessian=other, rows=more)
     assert_allclose(
-        changed.point, QuadraticProgram(other, more, 12).solve(gradient, low, high).point, atol=1e-7
+        changed.point, QuadraticProgram(other, more, 12, LIMIT).solve(gradient, low, high).point, atol=1e-7
     )
 
 
 def test_what_cannot_be_solved_is_said_and_forgotten() -> None:
     hessian, rows, gradient = random_problem(3)
     low, high = np.full(20, -0.5), np.full(20, 0.5)
-    program = QuadraticProgram(hessian, rows, 12)
+    program = QuadraticProgram(hessian, rows, 12, LIMIT)
     good = program.solve(gradient, low, high)
     apart = high.copy()
     apart[-1] = -2.0
@@ -80,14 +84,14 @@ def test_what_cannot_be_solved_is_said_and_forgotten() -> None:
 
 def test_an_indefinite_hessian_is_refused() -> None:
     with pytest.raises(ArithmeticError, match="positive definite"):
-        QuadraticProgram(np.diag([1.0, -1.0]), np.zeros((1, 2)), 2)
+        QuadraticProgram(np.diag([1.0, -1.0]), np.zeros((1, 2)), 2, LIMIT)
 
 
 @pytest.mark.parametrize("weight", [1e2, 1e12, 1e300])
 def test_slacks_may_weigh_whatever_they_do(weight: float) -> None:
     """``1/2 (x - 2)^2 + W s^2 / 2`` under ``x - s <= 1``: so ``s = 1 / (1 + W)``; with all handed in anew too."""
     hessian, rows, gradient = np.diag([1.0, weight]), np.array([[1.0, -1.0]]), np.array([-2.0, 0.0])
-    program = QuadraticProgram(hessian, rows, 1)
+    program = QuadraticProgram(hessian, rows, 1, LIMIT)
     low, high = np.array([-5.0, -np.inf]), np.array([5.0, 1.0])
     for anew in ({}, {"hessian": hessian, "rows": rows}):
         found = program.solve(gradient, low, high, **anew)
@@ -101,11 +105,35 @@ def test_no_rows_at_all_are_updated_too() -> None:
     """As where a scene bounds nothing but its torques."""
     hessian, _, gradient = random_problem(3)
     low, high, none = np.full(12, -0.5), np.full(12, 0.5), np.empty((0, 12))
-    program = QuadraticProgram(hessian, none, 12)
+    program = QuadraticProgram(hessian, none, 12, LIMIT)
     program.solve(gradient, low, high)
     other = hessian + np.eye(12)
     again = program.solve(gradient, low, high, hessian=other, rows=none)
     assert again.status is Status.OK
     assert_allclose(
-        again.point, QuadraticProgram(other, none, 12).solve(gradient, low, high).point, atol=1e-7
+        again.point, QuadraticProgram(other, none, 12, LIMIT).solve(gradient, low, high).point, atol=1e-7
     )
+
+
+def test_iterations_are_bounded_and_some_are_left_for_a_solution_without_soft_bounds() -> None:
+    """Of those allowed two thirds go into the first search at most, whatever it takes."""
+    hessian, rows, gradient = random_problem(5, size=30, rows=40)
+    low, high = np.full(70, -0.3), np.full(70, 0.3)
+    low[30:], high[30:] = -0.01, 0.01
+    soft = np.arange(70) >= 30
+
+    def program(limit: int) -> QuadraticProgram:
+        return QuadraticProgram(hessian, rows, 30, limit)
+
+    whole = program(LIMIT).solve(gradient, low, high)
+    alone = program(LIMIT).solve(gradient, np.where(soft, -np.inf, low), np.where(soft, np.inf, high))
+    assert alone.iterations < whole.iterations - at_first(whole.iterations)
+    enough, short = program(2 * whole.iterations), program(whole.iterations)
+    assert enough.solve_softly(gradient, low, high, soft).status is Status.OK
+    found = short.solve_softly(gradient, low, high, soft)
+    assert found.status is Status.RELAXED
+    assert found.iterations == at_first(whole.iterations) + alone.iterations
+    assert_allclose(found.point, alone.point, atol=1e-9)
+    none = program(alone.iterations).solve_softly(gradient, low, high, soft)
+    assert none.status is Status.ITERATIONS
+    assert none.iterations <= alone.iterations

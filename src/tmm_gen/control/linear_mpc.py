@@ -42,7 +42,7 @@ class LinearMpc(ModelBased):
         still = np.zeros(problem.count)
         targets = np.repeat(np.concatenate([model.goal.tip, still, model.goal.hub, still]), problem.horizon)
         self.offsets = np.concatenate([targets, np.zeros(len(self.response.slopes.end))])
-        self._program = QuadraticProgram(self.condensed.hessian, self.condensed.rows, self.condensed.inputs)
+        self._program = QuadraticProgram.of(self.condensed)
         super().__init__(problem, KalmanFilter(model, problem), model.delay, inertia)
 
     def _forget(self) -> None:

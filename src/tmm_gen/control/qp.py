@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Status
+from tmm_gen.control.condensed import Condensed
+from tmm_gen.control.iterations import at_first, iteration_limit
 from tmm_gen.extras import extra
 
 Array = NDArray[np.float64]
 
-ITERATION_LIMIT = 500
-"""Changes of the active set; a problem of 30 samples has a few tens."""
 INFINITE = 1e30
 """DAQP's infinity."""
 _FEASIBLE = 1e-4
@@ -71,18 +71,21 @@ class QuadraticProgram:
         A.
     bounded : int
         Number of variables with bounds of their own, the first ones.
+    limit : int
+        Changes of the active set that a solution may take; see :mod:`tmm_gen.control.iterations`.
     """
 
-    def __init__(self, hessian: Array, rows: Array, bounded: int) -> None:
+    def __init__(self, hessian: Array, rows: Array, bounded: int, limit: int) -> None:
         daqp = require_daqp()
         self._rows = rows
         self._bounded = bounded
+        self._limit = limit
+        self._allowed = 0
         # variables without bounds of their own, slacks, in units in which they weigh 1: however much they weigh, pivots
         # are then of one size, and none is taken for zero
         self._units = np.ones(len(hessian))
         self._units[bounded:] = np.diag(hessian)[bounded:] ** -0.5
         self._solver: Any = daqp.Model()
-        self._solver.settings = {"iter_limit": ITERATION_LIMIT}
         width = bounded + len(rows)
         self._cold = True
         self._left_out = np.ones(2 * width, bool)
@@ -99,6 +102,12 @@ class QuadraticProgram:
                 f"DAQP finds no positive definite Hessian, flag {flag}: weights of [control] are too far apart"
             )
 
+    @classmethod
+    def of(cls, condensed: Condensed) -> QuadraticProgram:
+        """Return that of a controller, with as many iterations as its problem has."""
+        limit = iteration_limit(condensed.problem)
+        return cls(condensed.hessian, condensed.rows, condensed.inputs, limit)
+
     def forget(self) -> None:
         """Start the next solution from no active set."""
         self._cold = True
@@ -113,10 +122,11 @@ class QuadraticProgram:
         rows: Array | None = None,
     ) -> Solution:
         """Solve, and if that fails once more without the bounds that are soft: ``RELAXED`` if that works."""
-        found = self.solve(gradient, low, high, hessian, rows)
+        found = self._solved(at_first(self._limit), gradient, low, high, hessian, rows)
         if found.status in (Status.OK, Status.NOT_FINITE):
             return found
-        again = self.solve(gradient, np.where(soft, -np.inf, low), np.where(soft, np.inf, high))
+        left = self._limit - found.iterations
+        again = self._solved(left, gradient, np.where(soft, -np.inf, low), np.where(soft, np.inf, high))
         status = Status.RELAXED if again.status is Status.OK else again.status
         return Solution(again.point, status, found.iterations + again.iterations)
 
@@ -129,6 +139,17 @@ class QuadraticProgram:
         rows: Array | None = None,
     ) -> Solution:
         """Solve with a new gradient and new bounds, and a new Hessian or new rows where given."""
+        return self._solved(self._limit, gradient, low, high, hessian, rows)
+
+    def _solved(
+        self,
+        limit: int,
+        gradient: Array,
+        low: Array,
+        high: Array,
+        hessian: Array | None = None,
+        rows: Array | None = None,
+    ) -> Solution:
         if rows is not None:
             self._rows = rows
         nothing = np.full(len(gradient), np.nan)
@@ -159,6 +180,9 @@ class QuadraticProgram:
         if flag < 0:
             self._cold = True
             return Solution(nothing, Status.NOT_FINITE, 0)
+        if limit != self._allowed:
+            self._solver.settings = {"iter_limit": limit}
+            self._allowed = limit
         point, _, flag, information = self._solver.solve()
         point, iterations = self._units * np.asarray(point, float), int(information["iterations"])
         status = self._judged(flag, point, low, high)

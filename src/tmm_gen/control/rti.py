@@ -77,9 +77,8 @@ class RealTimeIteration(Movable):
 
     def _use(self, constant: Constant) -> None:
         """Take sensitivities of zero order, and the program that is made of them."""
-        prepared = constant.condensed
         self.constant = constant
-        self._program = QuadraticProgram(prepared.hessian, prepared.rows, prepared.inputs)
+        self._program = QuadraticProgram.of(constant.condensed)
 
     @property
     def prepared(self) -> Condensed:

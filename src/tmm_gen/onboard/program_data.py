@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.condensed import Condensed
+from tmm_gen.control.iterations import iteration_limit
 from tmm_gen.control.problem import ControlProblem
 
 Array = NDArray[np.float64]
@@ -23,11 +24,6 @@ ACTIVE_PER_INPUT = 2.4
 """How many bounds per input may be active at once: soft rows can be more, where hard ones could not. All of them would
 be three per input, and half as much memory again. Where more would be, soft ones are passed at nearly every sample
 anyway, and give way."""
-ITERATIONS_PER_INPUT = 5
-"""Iterations of the solver a sample may take, per input."""
-ITERATIONS_PER_RATE = 10
-"""The same, per sample of the horizon and hub whose rate is bounded: such bounds are met along most of a way, and the
-solver goes to and fro between them and those of torques and of their changes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +82,6 @@ def program_data(problem: ControlProblem, condensed: Condensed) -> ProgramData:
     # begins cold again
     walls, rates = len(problem.keeps), int(np.count_nonzero(np.isfinite(problem.hub_rate)))
     met = condensed.inputs + (walls + rates) * count / 3.0
-    iterations = ITERATIONS_PER_INPUT * (condensed.inputs + walls * count / 3.0)
     return ProgramData(
         horizon=count,
         motors=problem.count,
@@ -97,5 +92,5 @@ def program_data(problem: ControlProblem, condensed: Condensed) -> ProgramData:
         softness=np.repeat(soft, count),
         stopping=condensed.stopping,
         capacity=round(ACTIVE_PER_INPUT * met),
-        iteration_limit=round(iterations + ITERATIONS_PER_RATE * rates * count),
+        iteration_limit=iteration_limit(problem),
     )

@@ -13,13 +13,13 @@ from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.iterations import iteration_limit
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.safe import BRAKE_TIME
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.emit import EMITTED, emit_controller
 from tmm_gen.onboard.folder import EXAMPLE
 from tmm_gen.onboard.native import EmittedController
-from tmm_gen.onboard.program_data import ITERATIONS_PER_INPUT
 
 pytestmark = pytest.mark.compiler
 
@@ -133,7 +133,7 @@ def test_torques_are_finite_and_within_bounds_whatever_is_measured(
     low, high = bench.problem.torque
     assert np.all(np.isfinite(found.torques))
     assert np.all((found.torques >= low) & (found.torques <= high))
-    assert found.iterations.max() <= ITERATIONS_PER_INPUT * bench.problem.horizon
+    assert found.iterations.max() <= iteration_limit(bench.problem)
     assert len(set(found.statuses)) > 1  # some of it cannot be used, and it says so
     assert Status.MISSING not in found.statuses
 
