@@ -115,7 +115,7 @@ class ControlProblem:
     torque_rate : array, (m,)
         N m/s; infinite where there is none.
     hub : tuple of ((low, high) or None), length m
-        rad.
+        rad; in space within the limits of the joints, where these have some.
     hub_rate : array, (m,)
         rad/s; infinite where there is none.
     tip : tuple of ((low, high) or None), length m
@@ -248,7 +248,7 @@ def control_problem(scene: Scene) -> ControlProblem:
     start = motors.prescribed @ np.array([*np.zeros(scene.hub), *scene.initial.angles])
     reference = np.array(by_names(control.reference, names))
     bounds, assumed = control.bounds, control.estimator
-    rate, turning, hub = bounds.torque_rate, bounds.hub_rate, _hub_bounds(control, names)
+    rate, turning, hub = bounds.torque_rate, bounds.hub_rate, _hub_bounds(scene, control, motors)
     low, high = np.array(by_names(bounds.torque, names)).T
     return ControlProblem(
         horizon=control.horizon,
@@ -282,12 +282,22 @@ def _driven(scene: Scene) -> bool:
     return bool(scene.parts) and any(item.acts == "drive" for item in scene.inputs)
 
 
-def _hub_bounds(control: Control, names: tuple[str, ...]) -> tuple[Pair | None, ...]:
-    """Return the intervals of the hubs' angles."""
-    if control.bounds.hub is None:
-        return (None,) * len(names)
-    found: tuple[Pair, ...] = by_names(control.bounds.hub, names)
-    return found
+def _hub_bounds(scene: Scene, control: Control, motors: Motors) -> tuple[Pair | None, ...]:
+    """Return the intervals of the hubs' angles: those of ``[control.bounds]``, within the joints' own limits."""
+    told: tuple[Pair | None, ...] = (None,) * motors.count
+    if control.bounds.hub is not None:
+        told = (*by_names(control.bounds.hub, motors.names),)
+    if scene.spatial is None:
+        return told
+    limits = (scene.spatial.joints[motor.place].limits for motor in motors.each)
+    return tuple(map(_within, told, limits))
+
+
+def _within(one: Pair | None, other: Pair | None) -> Pair | None:
+    """Return what two intervals have in common, where there are two."""
+    if one is None or other is None:
+        return one or other
+    return max(one[0], other[0]), min(one[1], other[1])
 
 
 def _tip_bound(control: Control, way: float) -> Pair | None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from tmm_gen.scene.control import Control
+from tmm_gen.scene.each import by_names
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.control_motors import motors_told
 from tmm_gen.scene.rules.control_sensors import sensed_in_space
@@ -29,5 +31,24 @@ def motors_in_space_controlled(document: SpatialDocument) -> Iterator[Finding]:
     frames = tuple(name for name, frame in document.expansion.frames.items() if frame.joint)
     yield from can_be_kept(control, frames, "xyz")
     motors = tuple(name for name, number in numbers.items() if number in turned)
-    broken = list(motors_told(control, motors))
-    yield from broken or sensed_in_space(document, control, motors)
+    if broken := list(motors_told(control, motors)):
+        yield from broken
+        return
+    yield from _beyond_limits(document, control, motors)
+    yield from sensed_in_space(document, control, motors)
+
+
+def _beyond_limits(document: SpatialDocument, control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
+    """Find references that joints have no room for."""
+    made = document.expansion
+    for name, angle in zip(motors, by_names(control.reference, motors), strict=True):
+        limits = made.joints[made.numbers[name] - 1].limits
+        if limits is None or limits[0] <= angle <= limits[1]:
+            continue
+        own = [name] if isinstance(control.reference, dict) else []
+        yield Finding(
+            ("control", "reference", *own),
+            f"is beyond the limits of '{name}', [{limits[0]:g}, {limits[1]:g}] rad",
+            "Set another reference, or widen `limits`.",
+            angle,
+        )
