@@ -74,9 +74,11 @@ def test_a_motor_with_a_strong_damper_turns_too() -> None:
         signal = went.signals["left_torque" if scene.spatial is None else "yaw_torque"]
         assert isinstance(signal, Sine)
         gear, damping = (30.0, 0.06) if scene.spatial is None else (100.0, 0.5)
-        share = len(went.signals) if scene.spatial else 1  # in space all loads together turn it
         turn = gear * signal.amplitude / (damping * signal.frequency)
-        assert turn * share == pytest.approx(1.0, rel=0.6)
+        if scene.spatial is None:
+            assert turn == pytest.approx(1.0, rel=0.6)
+        else:  # from rest a damped joint goes one way only, twice as far; all loads together turn it
+            assert 1.0 / len(went.signals) < 2.0 * turn < 1.1
 
 
 def test_a_force_beyond_a_free_joint_is_of_the_size_of_what_it_carries() -> None:

@@ -48,12 +48,14 @@ def went(scene: Scene) -> Excitation:
 
 
 def test_a_free_joint_gets_a_load_of_what_it_carries(palm: Scene) -> None:
-    """And not one of the arm's whole inertia: each column alone turns nothing by more than its share of a radian."""
+    """And not one of the arm's whole inertia; what it turns goes on all the time as the first half swing sends it."""
     found = went(palm)
     assert found.output == "nail"
     assert set(found.signals) == {"twist", "push_x", "push_y", "push_z"}
     nail, frequency = 5e-6 + 0.02 * 0.025**2, found.signals["twist"].frequency
-    assert found.signals["twist"].amplitude == pytest.approx(0.25 * nail * frequency**2, rel=0.5)
+    passed = frequency * UNTIL
+    turn = found.signals["twist"].amplitude / (nail * frequency**2) * (passed - np.sin(passed))
+    assert 0.25 < turn < 1.1  # of a radian together; amplitudes have one digit
     amplitudes = [signal.amplitude for name, signal in found.signals.items() if name != "twist"]
     assert amplitudes == [amplitudes[0]] * 3
     assert found.told(palm)[0].startswith("twist: ")
@@ -69,7 +71,8 @@ def test_loads_turn_the_arm_by_about_a_radian(palm: Scene) -> None:
     turned = find_truth(palm, found).trajectory
     assert turned is not None
     q, _, _ = turned.at(times)
-    assert 0.3 < float(np.max(np.abs(q))) < 4.0
+    # pushes along the finger act across it as soon as it turns, and hold it back: less than in small motion
+    assert 0.15 < float(np.max(np.abs(q))) < 1.4
     assert np.all(np.isfinite(WorldArm(palm.spatial).mass_matrix(q[-1])))
 
 

@@ -2,7 +2,8 @@
 
 A load that jumps or kinks on the way would cut every integrator down to the first or second order, and the study
 would compare nothing but how they meet the kink. Amplitudes follow from the scene: a joint torque that turns the arm
-by about a radian, a force that does the same by its lever, a base that is moved by one radian.
+by about a radian, a force that does the same by its lever, a base that is moved by one radian. What loads do to arms
+in space, and to those that float, :mod:`tmm_gen.study.turning_loads` tells by their motion from rest.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from tmm_gen.scene import Input, Output, Scene, station_of
 from tmm_gen.scene.spatial.arm import ArmOutput, SpatialArm
 from tmm_gen.simulate.prescribed import prescribed
 from tmm_gen.study.rise import Rise
-from tmm_gen.study.space_loads import turning_loads
+from tmm_gen.study.turning_loads import turning_loads
 
 _TURN = 1.0
 """rad; what an input does to the arm, about."""
@@ -162,10 +163,10 @@ def _initial(scene: Scene) -> bool:
 def _default_signals(scene: Scene, until: float) -> dict[str, Signal]:
     frequency = 2.0 * math.pi * _SWINGS / until
     frequencies = {item.name: frequency * (1.0 + 0.5 * k) for k, item in enumerate(scene.inputs)}
-    if scene.spatial is not None:
+    if scene.spatial is not None or scene.floats:
         given = {item.name: _TURN if item.acts == "angle" else _TURN * scene.reach for item in scene.motions}
         acting = {name: frequency for name, frequency in frequencies.items() if name not in given}
-        sizes = turning_loads(scene.spatial, acting, _TURN)
+        sizes = turning_loads(scene, acting, until, _TURN)
         rise: dict[str, Signal] = {name: Rise(way, 0.5 * until) for name, way in given.items()}
         return rise | {name: Sine(_rounded(size), acting[name]) for name, size in sizes.items()}
     return {item.name: _signal(scene, item, frequencies[item.name], until) for item in scene.inputs}
