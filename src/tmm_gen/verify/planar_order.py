@@ -8,7 +8,6 @@ down alike, the same code and the same links make a motion whose every vibration
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Sequence
 from dataclasses import replace
 from types import ModuleType
 
@@ -20,7 +19,7 @@ from tmm_gen.program.build import build_program
 from tmm_gen.reference.frequency import fastest_mode
 from tmm_gen.reference.planar_arm import Arm
 from tmm_gen.scene import Scene
-from tmm_gen.simulate.metrics import convergence_slope
+from tmm_gen.verify.asymptotic import asymptotic_order
 from tmm_gen.verify.check_row import SLOPE, CheckRow
 
 Array = NDArray[np.float64]
@@ -34,9 +33,8 @@ _COARSEST = 0.004
 _STEPS = (64, 128, 256, 512)
 _SMALL = 0.01
 """rad; of errors larger than this the order says nothing yet: finer steps are fitted."""
-_HALVINGS = 4
-_ROUNDED, _FEWEST = 1e-13, 8
-"""rad; of errors smaller than this rounding is a part: coarser steps are fitted, down to so few in all."""
+_ROUNDED = 1e-13
+"""rad; of errors smaller than this rounding is a part: coarser steps are fitted."""
 _ITERATIONS = 5
 """Of coupled stages: as many as leave nothing that the order could be told from."""
 _STEADY = 1e-10
@@ -77,53 +75,25 @@ def planar_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) -> 
         return float(np.max(np.abs(found[stride - 1 :: stride] - exact[skip - 1 :: skip])))
 
     facts["derived_order"] = derived
-    counts = list(_STEPS)
-    errors = [error(steps) for steps in counts]
     if (
         np.max(np.abs(exact - RATE * times[:, None])) < _STEADY
     ):  # one link on a free joint, say, with nothing beyond
         return CheckRow(
             "order_against_derived",
-            max(errors),
+            max(map(error, _STEPS)),
             _STEADY,
             "error in rad where links turn at constant rates: they show no order, and every step of them is exact",
         )
-    for _ in range(_HALVINGS):
-        if errors[0] > _SMALL:
-            counts = [*counts[1:], 2 * counts[-1]]
-            errors = [*errors[1:], error(counts[-1])]
-    counts, errors = above_rounding(error, counts, errors, _ROUNDED)
-    fitted = convergence_slope([1.0 / steps for steps in counts], errors).order
-    facts["fitted_order"] = fitted
+    found = asymptotic_order(error, _STEPS, lambda slope: abs(slope - derived) <= SLOPE, _ROUNDED, _SMALL)
+    facts["fitted_order"] = found.order
     return CheckRow(
         "order_against_derived",
-        abs(fitted - derived),
+        abs(found.order - derived),
         SLOPE,
-        f"error goes with step^{fitted:.3f}, fitted on {len(counts)} steps from "
-        f"{_COARSEST * _STEPS[0] / counts[0]:g} s down on the arm "
+        f"error goes with step^{found.order:.3f}, fitted on {len(found.counts)} steps from "
+        f"{_COARSEST * _STEPS[0] / found.counts[0]:g} s down on the arm "
         f"with softened joints{solved}; derived: step^{derived}",
     )
-
-
-def above_rounding(
-    error: Callable[[int], float], counts: Sequence[int], errors: Sequence[float], least: float
-) -> tuple[list[int], list[float]]:
-    """Return numbers of steps and their errors, moved to coarser steps until the last error is above rounding.
-
-    Parameters
-    ----------
-    error : callable
-        From a number of steps to its error.
-    counts : sequence of int
-        Each twice the one before.
-    least : float
-        Errors below this are of rounding.
-    """
-    found, of_found = list(counts), list(errors)
-    while of_found[-1] < least and found[0] > _FEWEST:
-        found = [found[0] // 2, *found[:-1]]
-        of_found = [error(found[0]), *of_found[:-1]]
-    return found, of_found
 
 
 def _solved(scene: Scene) -> ModuleType:

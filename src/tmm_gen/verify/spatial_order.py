@@ -7,8 +7,7 @@ motion whose order shows. All inputs act, as sines whose size is set by what the
 from __future__ import annotations
 
 import inspect
-import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from types import ModuleType
 
@@ -24,12 +23,10 @@ from tmm_gen.scene import Scene
 from tmm_gen.scene.signal import ACCELERATION, PRESCRIBED, RATE
 from tmm_gen.scene.spatial.arm import SpatialArm
 from tmm_gen.scene.spatial.reach import longest_way
-from tmm_gen.simulate.metrics import convergence_slope
 from tmm_gen.simulate.prescribed import Derivative
 from tmm_gen.simulate.trace import BASE
+from tmm_gen.verify.asymptotic import asymptotic_order
 from tmm_gen.verify.check_row import SLOPE, CheckRow
-from tmm_gen.verify.planar_order import above_rounding
-from tmm_gen.verify.unbroken import BREAKS
 
 Array = NDArray[np.float64]
 
@@ -48,7 +45,6 @@ _COARSEST = 0.008
 _STEPS = (32, 64, 128, 256)
 _SMALL = 0.01
 """rad; of errors larger than this the order says nothing yet: finer steps are fitted."""
-_HALVINGS = 4
 _ROUNDED = 1e-12
 """rad; errors smaller than this are the reference's too: coarser steps are fitted."""
 
@@ -76,11 +72,16 @@ def spatial_slope(scene: Scene, module: ModuleType, facts: dict[str, object]) ->
     method = integrator(scene.integrator.name, **scene.integrator.parameters)
     whole = order(method)
     derived = promised(scene, whole, len(module.STAGE_INSTANTS[-1]))
-    fitted, counts = fitted_order(scene.spatial, module)
+    surpassed = derived < whole or method.main.coupled
+
+    def lacks(slope: float) -> float:
+        return max(0.0, derived - slope) if surpassed else abs(slope - derived)
+
+    fitted, counts = fitted_order(scene.spatial, module, lambda slope: lacks(slope) <= SLOPE)
     facts |= {"derived_order": derived, "fitted_order": fitted}
     return CheckRow(
         "order_against_derived",
-        max(0.0, derived - fitted) if derived < whole or method.main.coupled else abs(fitted - derived),
+        lacks(fitted),
         SLOPE,
         f"error goes with step^{fitted:.3f}, fitted on {len(counts)} steps from "
         f"{_COARSEST * _STEPS[0] / counts[0]:g} s down on the arm "
@@ -98,8 +99,15 @@ def promised(scene: Scene, whole: int, stages: int) -> int:
     return whole if scene.model.linearisation == "newton" else min(whole, sweeps)
 
 
-def fitted_order(arm: SpatialArm, module: ModuleType) -> tuple[float, list[int]]:
+def fitted_order(
+    arm: SpatialArm, module: ModuleType, holds: Callable[[float], bool] = lambda slope: True
+) -> tuple[float, tuple[int, ...]]:
     """Return the order of a kernel's angles, and over how many steps each the same time was gone through for it.
+
+    Parameters
+    ----------
+    holds : callable
+        Whether an order is what is expected; steps are shortened until it is, or stays what it is.
 
     Raises
     ------
@@ -111,27 +119,13 @@ def fitted_order(arm: SpatialArm, module: ModuleType) -> tuple[float, list[int]]
     times: Array = _COARSEST * np.arange(1, _STEPS[0] + 1, dtype=float)
     exact = motion(moving, loads, times)[0]
 
-    def strict(steps: int) -> float:
+    def error(steps: int) -> float:
         stride, wider = max(1, steps // _STEPS[0]), max(1, _STEPS[0] // steps)
         found = _angles(module, moving, loads, float(times[-1]) / steps, steps)
         return float(np.max(np.abs(found[stride - 1 :: stride] - exact[wider - 1 :: wider])))
 
-    def error(steps: int) -> float:
-        try:
-            return strict(steps)
-        except BREAKS:
-            return math.inf
-
-    counts = list(_STEPS)
-    errors = [error(steps) for steps in counts]
-    for _ in range(_HALVINGS):
-        if errors[0] > _SMALL:
-            counts = [*counts[1:], 2 * counts[-1]]
-            errors = [*errors[1:], error(counts[-1])]
-    if not math.isfinite(errors[0]):
-        strict(counts[0])
-    counts, errors = above_rounding(error, counts, errors, _ROUNDED)
-    return convergence_slope([1.0 / steps for steps in counts], errors).order, counts
+    found = asymptotic_order(error, _STEPS, holds, _ROUNDED, _SMALL)
+    return found.order, found.counts
 
 
 def softened(arm: SpatialArm) -> SpatialArm:
