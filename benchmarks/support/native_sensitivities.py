@@ -64,6 +64,7 @@ class NativeSensitivities:
         )
         handle = ctypes.CDLL(str(compile_library(files, cc, flags)))
         self._library = Library(program, REALS[scene.emit.real], handle)
+        self._program, self._handle = program, handle
         self._function: Any = getattr(handle, f"{program.name}_step_with_sensitivities")
         self._lanes = int(handle.lanes())
         self._number = np.float64 if scene.emit.real == "float64" else np.float32
@@ -98,10 +99,7 @@ class NativeSensitivities:
         FloatingPointError, VanishingPivotError
             If an input or the new state is not finite, or the step cannot be solved.
         """
-        after = np.array(state, self._number)
-        acting = np.ascontiguousarray(
-            np.append(np.asarray(inputs), [] if self.inputs else [0.0]), self._number
-        )
+        after, acting = np.array(state, self._number), self._acting(inputs)
         changes = self._blocks(d_state, self.states)
         causes = self._blocks(d_inputs, max(self.inputs, 1))
         status = self._function(
@@ -110,9 +108,52 @@ class NativeSensitivities:
             ctypes.c_int(len(changes)),
         )
         self._library.raise_for(status, "step_with_sensitivities")
-        count = np.shape(d_state)[1]
-        found = changes.transpose(1, 0, 2).reshape(self.states, -1)[:, :count]
-        return after.astype(float), found.astype(float)
+        return after.astype(float), self._columns(changes, np.shape(d_state)[1])
+
+    def carried(self, state: ArrayLike, inputs: ArrayLike, d_state: ArrayLike, d_inputs: ArrayLike) -> Array:
+        """Carry changes over a step by its gathered slopes.
+
+        Parameters
+        ----------
+        state, inputs, d_state, d_inputs : array_like
+            As of `step`.
+
+        Returns
+        -------
+        array, (nx, m)
+            Changes of the state after the step.
+
+        Raises
+        ------
+        FloatingPointError, VanishingPivotError
+            If an input or the new state is not finite, or the step cannot be solved.
+        """
+        name, sensitivities = self._program.name, self._program.sensitivities
+        assert sensitivities is not None
+        assert sensitivities.reduced is not None
+        follows = len(sensitivities.reduced.predicted) * self._program.stations + self.inputs
+        point = np.zeros(sum(v.length or 1 for v in sensitivities.point), self._number)
+        gathered = np.full((self._program.stations, follows), np.nan, self._number)
+        changes, causes = self._blocks(d_state, self.states), self._blocks(d_inputs, self.inputs)
+        model = ctypes.byref(self._model)
+
+        def call(function: str, *arrays: NDArray[Any]) -> int:
+            pointers = (a.ctypes.data_as(ctypes.c_void_p) for a in arrays)
+            return int(getattr(self._handle, f"{name}_{function}")(model, *pointers))
+
+        status = call("linearise", np.array(state, self._number), self._acting(inputs), point)
+        self._library.raise_for(status, "linearise")
+        call("gather", point, gathered)
+        for cause, change in zip(causes, changes, strict=True):
+            call("carry", gathered, cause, change)
+        return self._columns(changes, np.shape(d_state)[1])
+
+    def _acting(self, inputs: ArrayLike) -> NDArray[Any]:
+        return np.ascontiguousarray(np.append(np.asarray(inputs), [] if self.inputs else [0.0]), self._number)
+
+    def _columns(self, changes: NDArray[Any], count: int) -> Array:
+        """Return the first directions of blocks of lanes, (nx, m)."""
+        return np.asarray(changes.transpose(1, 0, 2).reshape(self.states, -1)[:, :count], float)
 
     def _blocks(self, columns: ArrayLike, rows: int) -> NDArray[Any]:
         """Return columns in blocks of lanes, (blocks, rows, lanes), the last filled with zeros."""

@@ -8,9 +8,11 @@ from tmm_gen.c_language.names import bare_names
 from tmm_gen.c_language.real import REALS
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.emit.c import emit_kernel
+from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.templates import render
 from tmm_gen.onboard.example_arm import ExampleArm
 from tmm_gen.onboard.folder import complete
+from tmm_gen.onboard.gathering import many_directions
 from tmm_gen.onboard.rti_data import rti_data
 from tmm_gen.onboard.rti_text import RtiText
 from tmm_gen.onboard.sensing_text import SensingText
@@ -70,6 +72,9 @@ def emit_rti(
         inputs_of_kernel=tuple(item.name for item in scene.inputs),
         bare_names=bare_names(program),
     )
+    if full:
+        directions = mpc.inputs_planned + len(mpc.data.sensors)
+        mpc = replace(mpc, many=many_directions(Kernel.of(program, scene), directions))
     sensing = None
     if mpc.several:
         sensing = SensingText(controller.model.sensing, mpc.data.sensors)

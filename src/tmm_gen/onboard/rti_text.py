@@ -32,12 +32,15 @@ class RtiText(WallText):
         Names of the kernel's, in their order. The C asks for none of them by its name, which a macro may have.
     bare_names : list of str
         Inputs and outputs whose members have no prefix.
+    many : int, optional
+        Directions beyond which the kernel's slopes are gathered first; never, where there is no such number.
     """
 
     model: str
     stages: int
     inputs_of_kernel: tuple[str, ...]
     bare_names: list[str]
+    many: int | None = None
 
     @property
     def torques_at(self) -> list[int]:

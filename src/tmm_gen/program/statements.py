@@ -175,6 +175,30 @@ class Routine:
 
 
 @dataclass(frozen=True)
+class Reduced:
+    """How a tangent is carried by slopes of what the step finds, by what it is predicted to do and by inputs.
+
+    Parameters
+    ----------
+    predicted : tuple of Variable
+        Arrays of the tangent: with the inputs' changes, all that the step follows.
+    answer : Variable
+        The part of the state's change that is what the step finds.
+    seeds : tuple of tuple of (Variable, sympy.Expr)
+        For each that is predicted, the changes of the state before the step, at a station, that make it one there and
+        all else zero.
+    carry : Routine
+        Two sections: from the state's change to what is predicted, and, when what the step finds is known, to the
+        state's change behind it.
+    """
+
+    predicted: tuple[Variable, ...]
+    answer: Variable
+    seeds: tuple[tuple[tuple[Variable, sp.Expr], ...], ...]
+    carry: Routine
+
+
+@dataclass(frozen=True)
 class Sensitivities:
     """How a step's result follows its state and inputs, to first order: exact, one direction at a time.
 
@@ -189,6 +213,8 @@ class Sensitivities:
         The step, which also writes the point.
     tangent : Routine
         From the changes before the step to the changes of the state after it, with the factors of the point.
+    reduced : Reduced, optional
+        How else a tangent is carried, where there are fewer directions than the state has.
     """
 
     point: tuple[Variable, ...]
@@ -196,6 +222,7 @@ class Sensitivities:
     inputs: tuple[Variable, ...]
     linearise: Routine
     tangent: Routine
+    reduced: Reduced | None = None
 
 
 @dataclass(frozen=True)

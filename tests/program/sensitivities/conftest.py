@@ -258,6 +258,23 @@ rotor_inertia = 1e-5
 gear = 50
 damping = 0.1
 {links}
+{branch}
+[[input]]
+name = "yaw_torque"
+at = "yaw"
+acts = "torque"
+[[input]]
+name = "elbow_torque"
+at = "joint_5"
+acts = "torque"
+[[output]]
+name = "tip"
+at = "link_5"
+of = "position"
+[emit]
+sensitivities = true
+"""
+ASIDE = """\
 [[motor]]
 name = "aside"
 on = "yaw"
@@ -273,23 +290,9 @@ at = [0, 0.1, 0.05]
 mass = 0.4
 inertia = [1e-3, 2e-3, 1e-3]
 [[input]]
-name = "yaw_torque"
-at = "yaw"
-acts = "torque"
-[[input]]
-name = "elbow_torque"
-at = "joint_5"
-acts = "torque"
-[[input]]
 name = "push"
 at = "link_5"
 acts = "force"
-[[output]]
-name = "tip"
-at = "link_5"
-of = "position"
-[emit]
-sensitivities = true
 """
 LINK = """\
 [[joint]]
@@ -307,11 +310,11 @@ inertia = [1e-4, 2e-4, 2e-4]
 """
 
 
-def in_space() -> Scene:
-    """Return an arm in space with links that come in turn and are a loop, an elastic gear on a branch, and a force."""
-    hosts = ["yaw", *(f"link_{k}" for k in range(1, 5))]
+def in_space(branch: bool = True) -> Scene:
+    """Return an arm in space, its links in turn a loop; an elastic gear on a branch and a force, or links beyond."""
+    hosts = ["yaw", *(f"link_{k}" for k in range(1, 5 if branch else 10))]
     links = [LINK.format(number=k, host=host, axis="zy"[k % 2]) for k, host in enumerate(hosts, start=1)]
-    return parse_scene(IN_SPACE.format(links="".join(links)))
+    return parse_scene(IN_SPACE.format(links="".join(links), branch=ASIDE if branch else ""))
 
 
 @dataclass(frozen=True, eq=False)
@@ -395,3 +398,9 @@ def case(request: pytest.FixtureRequest) -> Case:
     if name not in _known:
         _known[name] = case_of(SCENES[name]())
     return _known[name]
+
+
+@pytest.fixture
+def without_branch() -> Case:
+    """Return the arm in space without its branch and the force."""
+    return case_of(in_space(branch=False))

@@ -10,11 +10,14 @@ import pytest
 from support.native_sensitivities import NativeSensitivities
 
 from tmm_gen.emit.c import emit_kernel
+from tmm_gen.emit.c.lower import lower
+from tmm_gen.emit.c.reached import Reached
 from tmm_gen.errors import UserError
 from tmm_gen.native import compile_kernel
 from tmm_gen.program.build import build_program
 from tmm_gen.program.count import count_routine
 from tmm_gen.program.evaluate import allocate, execute, key
+from tmm_gen.program.statements import Loop
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import load_scene, parse_scene
 
@@ -38,6 +41,50 @@ def test_emitted_c_has_casadis_derivatives(case: Any) -> None:
     assert np.allclose(after, case.x_next, rtol=1e-12, atol=1e-12 * np.abs(case.x_next).max())
     assert relative(found[:, :nx], case.a) < EXACT
     assert relative(found[:, nx:], case.b) < EXACT
+
+
+@pytest.mark.compiler
+@pytest.mark.parametrize("case", ["in space"], indirect=True)
+def test_gathered_slopes_carry_what_the_sweep_does(case: Any) -> None:
+    """A gear on a branch, whose shaft and joint are told apart by what each is found to do."""
+    _carries(case)
+
+
+@pytest.mark.compiler
+def test_directions_leave_out_what_they_do_not_reach(without_branch: Any) -> None:
+    """Without a branch walks begin where a direction does, one of a loop's two links too: each direction by itself."""
+    case = without_branch
+    assert case.program.sensitivities is not None
+    lowered = lower(case.program).sensitivities
+    assert lowered is not None
+    late = [s for s in lowered.tangent.sections if isinstance(s, Reached)]
+    assert [[v.name for v in s.follows] for s in late] == [
+        ["d_predicted_angle", "d_predicted_rate"],
+        ["d_predicted_angle"],
+    ]
+    assert any(isinstance(loop, Loop) and loop.stride > 1 for s in late for loop in s.statements)
+    kernel, nx, nu = case.native, len(case.x), len(case.u)
+    for k in range(nx + nu):
+        dx, du = np.eye(nx, nx + nu)[:, [k]], np.eye(nu, nx + nu, k=nx)[:, [k]]
+        found = kernel.step(case.x, case.u, dx, du)[1]
+        assert relative(found, case.a @ dx + case.b @ du) < EXACT, k
+    _carries(case)
+
+
+def _carries(case: Any) -> None:
+    """Show that gathered slopes carry every direction, and sums of them, as CasADi's derivatives do."""
+    kernel, nx, nu = case.native, len(case.x), len(case.u)
+    found = kernel.carried(case.x, case.u, np.eye(nx, nx + nu), np.eye(nu, nx + nu, k=nx))
+    assert relative(found[:, :nx], case.a) < EXACT
+    assert relative(found[:, nx:], case.b) < EXACT
+    random = np.random.default_rng(6)
+    dx, du = random.normal(size=(nx, 11)), random.normal(size=(nu, 11))
+    assert relative(kernel.carried(case.x, case.u, dx, du), case.a @ dx + case.b @ du) < EXACT
+
+
+def test_slopes_are_gathered_of_steps_that_follow_less_than_their_state(case: Any) -> None:
+    """Only in space, where a direction takes more than a step; and of one stage, on a base that rests."""
+    assert (case.program.sensitivities.reduced is not None) == (case.scene.name == "in_space")
 
 
 @pytest.mark.compiler

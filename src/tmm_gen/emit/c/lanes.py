@@ -15,9 +15,10 @@ from tmm_gen.c_language.wrap import INDENT, comment, statement
 from tmm_gen.emit.c.body import Body
 from tmm_gen.emit.c.loops import loop_head
 from tmm_gen.emit.c.printer import CPrinter
+from tmm_gen.emit.c.reached import Reached
 from tmm_gen.emit.c.words import sentence
 from tmm_gen.program.passes.accesses import accesses, first_uses
-from tmm_gen.program.statements import Assign, Loop, Statement
+from tmm_gen.program.statements import Assign, Loop, Section, Statement
 from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable
 
 LANE = "k"
@@ -42,18 +43,44 @@ class LaneBody(Body):
         for variable in (*self.routine.variables(Role.WORK), *self.routine.variables(Role.LOCAL)):
             if variable not in narrow:
                 yield from self._wide_declaration(variable)
+        if self.begins_late:
+            yield f"{INDENT}int reached; /* whether something that counts has changed at a station so far */"
         for section in self.routine.sections:
             yield ""
-            yield from comment(sentence(section.title), 1)
-            for is_loop, group in groupby(section.statements, lambda s: isinstance(s, Loop)):
-                if not is_loop:
-                    yield from self._for_lanes(tuple(group), printer, narrow, 1)
-                    continue
-                for loop in group:
-                    assert isinstance(loop, Loop)
-                    yield f"{INDENT}{loop_head(loop, self.program)} {{"
-                    yield from self._for_lanes(loop.body, printer, narrow, 2)
-                    yield f"{INDENT}}}"
+            yield from self._section(section, printer, narrow)
+
+    @property
+    def begins_late(self) -> bool:
+        """Whether stations are left out that no change has reached."""
+        return any(isinstance(section, Reached) for section in self.routine.sections)
+
+    def _section(self, section: Section, printer: CPrinter, narrow: frozenset[Variable]) -> Iterator[str]:
+        yield from comment(sentence(section.title), 1)
+        if isinstance(section, Reached):
+            yield f"{INDENT}reached = 0;"
+        for is_loop, group in groupby(section.statements, lambda s: isinstance(s, Loop)):
+            if not is_loop:
+                yield from self._for_lanes(tuple(group), printer, narrow, 1)
+                continue
+            for loop in group:
+                assert isinstance(loop, Loop)
+                yield f"{INDENT}{loop_head(loop, self.program)} {{"
+                if isinstance(section, Reached):
+                    yield from self._asked(section, loop)
+                yield from self._for_lanes(loop.body, printer, narrow, 2)
+                yield f"{INDENT}}}"
+
+    def _asked(self, section: Reached, loop: Loop) -> Iterator[str]:
+        """Yield what leaves out the stations of a visit where nothing has changed so far."""
+        places = [
+            f"{local_name(v)}[{f'j + {k}' if k else 'j'}]"
+            for v in section.follows
+            for k in range(loop.stride)
+        ]
+        yield from statement(f"reached = reached || {' || '.join(f'moves({each})' for each in places)};", 2)
+        yield f"{INDENT * 2}if (!reached) {{"
+        yield f"{INDENT * 3}continue;"
+        yield f"{INDENT * 2}}}"
 
     def _for_lanes(
         self, statements: tuple[Statement, ...], printer: CPrinter, narrow: frozenset[Variable], depth: int

@@ -11,6 +11,7 @@ import sympy as sp
 from tmm_gen.emit.c.early_first import early_first
 from tmm_gen.emit.c.interleave import interleave
 from tmm_gen.emit.c.one_ahead import one_ahead
+from tmm_gen.emit.c.reached import where_reached
 from tmm_gen.emit.c.split_at_runs import split_at_runs
 from tmm_gen.program.passes.contract import contract
 from tmm_gen.program.passes.fuse import fuse
@@ -58,15 +59,18 @@ def lower(program: Program, *, apart: bool = False, together: bool = False) -> P
         startup=tuple(_step(routine, apart, together) for routine in program.startup),
         main=_step(program.main, apart, together),
         output=_lowered(program.output),
-        sensitivities=_lowered_sensitivities(program.sensitivities),
+        sensitivities=_lowered_sensitivities(program.sensitivities, program.stations),
         vectors=_lowered_vectors(program.vectors),
     )
 
 
-def _lowered_sensitivities(found: Sensitivities | None) -> Sensitivities | None:
+def _lowered_sensitivities(found: Sensitivities | None, stations: int) -> Sensitivities | None:
     if found is None:
         return None
-    return replace(found, linearise=interleave(_lowered(found.linearise)), tangent=_lowered(found.tangent))
+    tangent = _lowered(found.tangent)
+    if found.reduced is not None:
+        tangent = where_reached(tangent, stations)  # slopes are gathered joint by joint
+    return replace(found, linearise=interleave(_lowered(found.linearise)), tangent=tangent)
 
 
 def _lowered_vectors(found: Vectors | None) -> Vectors | None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from tmm_gen.c_language.names import declared, macros, signal
 from tmm_gen.c_language.wrap import INDENT, WIDTH, comment
 from tmm_gen.emit.c.body import Body
+from tmm_gen.emit.c.gathered import Gathered
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.lanes import LaneBody
 from tmm_gen.emit.c.structs import described, dimension
@@ -50,6 +51,12 @@ class Derivatives:
     def tangent(self) -> LaneBody:
         """The body of the tangent."""
         return LaneBody(self.kernel.program, self.found.tangent, "tangent", self.kernel.real)
+
+    @property
+    def gathered(self) -> Gathered | None:
+        """Slopes by all that the step follows, where tangents are carried by them too."""
+        reduced = self.found.reduced
+        return None if reduced is None else Gathered(self.kernel, reduced, len(self.found.inputs))
 
     @property
     def cost(self) -> str:

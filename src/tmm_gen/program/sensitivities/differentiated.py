@@ -15,6 +15,7 @@ import sympy as sp
 
 from tmm_gen.program.passes.hoist import Hoister
 from tmm_gen.program.passes.prune import prune
+from tmm_gen.program.sensitivities.reduced import reduced
 from tmm_gen.program.sensitivities.slopes import Slopes
 from tmm_gen.program.sensitivities.twins import LINEARISE_DOC, TANGENT_DOC, change_of, changes_of
 from tmm_gen.program.statements import Assign, Loop, Program, Require, Routine, Section, Sensitivities
@@ -40,13 +41,14 @@ def differentiated(program: Program, hoister: Hoister) -> Sensitivities:
     needed = _points(tangent)
     linearise = prune(hoister.hoist(linearise), frozenset(program.state) | needed)
     needed |= _points(linearise)  # slopes by what something follows have its own slope in them
-    return Sensitivities(
+    whole = Sensitivities(
         point=tuple(v for v in found.slopes.kept if v in needed),
         state=state,
         inputs=changes_of(program.inputs),
         linearise=linearise,
         tangent=tangent,
     )
+    return replace(whole, reduced=reduced(whole, program.stations))
 
 
 def _points(routine: Routine) -> frozenset[Variable]:
