@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.c_language.names import macros
+from tmm_gen.c_language.wrap import statement
 from tmm_gen.control.motor_rows import Motor
 from tmm_gen.control.rti import AWAY, FAR, FAR_AT_WALLS, MOVING, TURNED
 from tmm_gen.control.terms import Kind
@@ -113,6 +114,13 @@ class RtiText(WallText):
             return "lengths", here.place, here.end
         places = np.flatnonzero(self.data.motors.tip[motor])
         return f"tips[{motor}]", int(places[0]), int(places[-1]) + 1
+
+    def tip_slope(self, output: tuple[str, int], place: int) -> str:
+        """Write how a tip of an arm in space, one of the outputs, changes in a lane: a sum that needs no loop."""
+        part = "rate" if output[0].endswith("rate") else "angle"
+        joints = np.flatnonzero(self.data.motors.tip[output[1]])
+        terms = [f"tips[{output[1]}][{j}] * found->{part}[{j}][k]" for j in joints]
+        return "\n".join(statement(f"slope[{place}][k] = {' + '.join(terms)};", 3))
 
     @property
     def rolls_out(self) -> bool:
