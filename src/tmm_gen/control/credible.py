@@ -5,6 +5,11 @@ the arm can be. If it is an encoder that stays off, the estimate is wrong and no
 the encoders say that the arm is. So whatever was shown before, all is well again a few samples after the last wrong
 one.
 
+How far an encoder may be off is little while the estimate foresees what it shows. An estimate that has just started
+anew does not: nobody told it how the arm is bent, or how fast. What encoders show then is taken in, as long as hubs can
+turn so far in a sample. Otherwise a whirling arm would be left without its encoders just when it needs them, started
+anew and left without them again, for ever.
+
 Where one of several encoders shows nothing, the others go on for a few samples: what it would be off is inferred from
 what they are off. With none left, or for longer, nobody knows where the arm is.
 """
@@ -24,11 +29,14 @@ Array = NDArray[np.float64]
 SURPRISE = 0.1
 """By how much the encoder may be off what was expected, rad: a rate wrong by 5 rad/s, at 50 samples per second."""
 JUMP = 1.0
-"""By how much the hub may turn in a sample, rad."""
+"""By how much the hub may turn in a sample, rad; and an encoder be off where the estimate has not proved itself."""
+PROOF = 0.5
+"""An estimate proves itself by samples in a row in which no encoder is further off than this share of what it may."""
 FARTHEST = 64.0
 """How far from where the scene starts a hub may be, rad: ten turns."""
 PATIENCE = 5
-"""After so many samples in a row that went wrong the estimate starts anew."""
+"""After so many samples in a row that went wrong the estimate starts anew; after as many that went well it has proved
+itself."""
 _SPREADS = 10.0
 """How many of the standard deviations the estimator assumes of a sensor."""
 _FORCES = 10.0
@@ -72,9 +80,22 @@ class Credible:
         """Return which hubs, (m,), can go from there to here in a sample."""
         return np.asarray(np.abs(now - before) <= JUMP)
 
-    def believed(self, surprise: Array) -> tuple[int, ...]:
-        """Return which sensors to take in, for what they are off what was expected, (3 m,)."""
-        return tuple(i for i in self.sensors if abs(float(surprise[i])) <= self.surprise[i])
+    def believed(self, surprise: Array, proved: bool) -> tuple[int, ...]:
+        """Return which sensors to take in, for what they are off what was expected, (3 m,).
+
+        Encoders may be off by as much as hubs can turn in a sample unless the estimate has proved itself.
+        """
+        encoders = len(self.home)
+        return tuple(
+            i
+            for i in self.sensors
+            if abs(float(surprise[i])) <= self.surprise[i]
+            or (not proved and i < encoders and abs(float(surprise[i])) <= JUMP)
+        )
+
+    def is_foreseen(self, surprise: Array) -> bool:
+        """Return whether all encoders show about what was expected: the estimate is good."""
+        return all(abs(float(surprise[i])) <= PROOF * self.surprise[i] for i in range(len(self.home)))
 
 
 def credible(problem: ControlProblem, home: Array, inertia: Array, length: float) -> Credible:

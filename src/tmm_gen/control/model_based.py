@@ -96,6 +96,7 @@ class ModelBased(ABC):
         self.estimator.reset()
         self._past = np.tile(self.estimator.start, (self.delay.memory + 1, 1))
         self._hub, self._fresh, self._wrong = np.full(self.problem.count, np.nan), True, 0
+        self._foreseen = PATIENCE  # the scene says how the arm starts
         self._due = False
         self._window: Window | None = None
         self._passed = 0
@@ -228,9 +229,13 @@ class ModelBased(ABC):
         if not lost:
             self._settle(hub, rate)
         surprise = self.estimator.surprise(measured)
-        believed = self.limits.believed(surprise)
+        believed = self.limits.believed(surprise, self._foreseen >= PATIENCE)
         encoders = [sensor for sensor in believed if sensor < count]
         placed = len(encoders) == count
+        if self.limits.is_foreseen(surprise):
+            self._foreseen = min(self._foreseen + 1, PATIENCE)
+        elif placed:
+            self._foreseen = 0
         if encoders == list(np.flatnonzero(there)):  # no encoder is off
             self.estimator.correct(surprise, believed, self.limits.disturbance)
             self._read = believed[len(encoders) :]
@@ -253,7 +258,7 @@ class ModelBased(ABC):
             self.estimator.rest(hub, rate)
             self._turned()
             self._forget()
-            self._wrong = 0
+            self._wrong = self._foreseen = 0
 
     def _solved(self, last: Array) -> Command:
         state, disturbance = self.estimator.ahead(self.delay.known(self._past))

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from tmm_gen.c_language.real import Real
 from tmm_gen.c_language.wrap import WIDTH
 from tmm_gen.control.condensed import BEYOND
-from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE
+from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE, PROOF
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.onboard.controller_data import ControllerData
 from tmm_gen.onboard.program_data import INFINITE
@@ -66,6 +66,11 @@ class ControllerText:
     def jump(self) -> float:
         """By how much the hub may turn in a sample, rad."""
         return JUMP
+
+    @property
+    def proof(self) -> float:
+        """How far encoders may be off for an estimate to prove itself, of what they may be off at all."""
+        return PROOF
 
     @property
     def farthest(self) -> float:
