@@ -15,9 +15,11 @@ from faulty_loops.arm_cases import ArmCase, Trouble
 from faulty_loops.cases import ADDED, INVALID, STUCK, VALUE
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
+from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.kalman import present_sensors
+from tmm_gen.control.linear_mpc import APPROACH_TIME, LinearMpc
 from tmm_gen.control.target import rest_with
-from tmm_gen.onboard.emit import emit_controller
+from tmm_gen.onboard.emit import LINEAR, emit_controller
 from tmm_gen.onboard.native import FLAGS, EmittedController
 
 Array = NDArray[np.float64]
@@ -42,7 +44,7 @@ class ArmOutcome:
         Up to the last that is not OK, and up to the last at which a joint is more than `ARRIVED` off.
     way : int
         Samples in which the joints come back from where they were farthest off while the arm was brought to a stop, at
-        the rates that they may turn at: it may have been thrown many turns away, and rates are bounded.
+        the rates that they may turn at, or linear controllers bring them near: it may have been thrown many turns away.
     outside : int
         Torques that are not finite, or out of the bounds that were in force.
     refused : int
@@ -86,6 +88,11 @@ class ArmLoop:
         self.controller = EmittedController(
             name, files, sensors, real, flags=flags, motors=bench.problem.count
         )
+        self.fastest = self.problem.hub_rate
+        if controller in LINEAR:
+            linear = BY_NAME[controller].make(bench)
+            assert isinstance(linear, LinearMpc)
+            self.fastest = np.minimum(self.fastest, linear.reach / APPROACH_TIME)
         self.carries = f"{name}_carry(" in files[f"{name}.h"]
         self.payload = payload_of(bench.scene)
         self.number = np.float64 if real == "float64" else np.float32
@@ -121,7 +128,7 @@ class ArmLoop:
             if not np.max(off) <= ARRIVED:
                 found.last_off = since
             if since <= BRAKING:
-                needed = np.max(off / self.problem.hub_rate) / self.problem.sample_time
+                needed = np.max(off / self.fastest) / self.problem.sample_time
                 found.way = max(found.way, math.ceil(needed))
         return found
 

@@ -9,8 +9,6 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.terms import Goal
-
 Array = NDArray[np.float64]
 
 
@@ -47,20 +45,10 @@ class Held:
 
 
 class Holding(Protocol):
-    """What holds an arm up while its controller's own law cannot be computed."""
+    """What holds up an arm that does not bend."""
 
-    def torque(self, goal: Goal, hub: Array) -> Array:
-        """Return the torques that hold an arm whose hubs are elsewhere than at the goal, (m,), N m.
-
-        Those at the goal, where beams sag as they do, and what a rigid arm's differ by.
-
-        Parameters
-        ----------
-        goal : Goal
-            Hubs and torques at the goal.
-        hub : array, (m,)
-            Where hubs are, rad.
-        """
+    def weight(self, hub: Array) -> Array:
+        """Return the torques of its motors with hubs somewhere, (m,), rad, (m,), N m."""
         ...
 
 

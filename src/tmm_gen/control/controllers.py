@@ -113,7 +113,7 @@ def make_pd(
     if bench.course is None:
         return _pd(bench, proportional, derivative, stepped_way(model.goal.torque, shapers))
     angles, rates, _ = Window.of(bench.course.angles, problem.sample_time).motion
-    torque = np.array([model.holds.torque(model.goal, each) for each in angles])
+    torque = np.array([model.lift.torque(model.goal, each) for each in angles])
     return _pd(bench, proportional, derivative, shaped_way(angles, rates, torque, shapers))
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -35,7 +33,7 @@ class NonlinearFilter:
         self._biased = self._stationary.biased
         self._unknown = np.zeros(linear.count + len(self._biased))
         self.home, self.start, self.length = linear.start_hub, linear.start_torque, linear.length
-        self._more: Callable[[Array], Array] = np.zeros_like
+        self._more = 0.0
         self._angles, self._rates = model.places("angle"), model.places("rate")
         self.reset()
 
@@ -61,17 +59,12 @@ class NonlinearFilter:
 
     def holds(self, hub: Array) -> Array:
         """Return the torques that hold an arm with its hubs there, rad, (m,), N m."""
-        held = self._linear.holds.torque(self._linear.goal, hub) + self._more(hub)
+        lift = self._linear.lift
+        held = lift.beside(self._linear.goal) + lift.weight(hub, self._more)
         return np.asarray(held - self._parts(self.estimate)[1], float)
 
-    def carry(self, model: StepModel, more: Callable[[Array], Array]) -> None:
-        """Predict by the step of the same arm with another payload.
-
-        Parameters
-        ----------
-        more : callable
-            From where hubs are, (m,), rad, to what holds up more than the scene's payload, (m,), N m.
-        """
+    def carry(self, model: StepModel, more: float) -> None:
+        """Predict by the step of the same arm with some more payload than the scene's, kg."""
         self.model, self._more = model, more
 
     def surprise(self, measured: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.linear import LinearModel
-from tmm_gen.control.terms import Wanted
+from tmm_gen.control.terms import Goal, Wanted
 from tmm_gen.control.window import Window
 
 Array = NDArray[np.float64]
@@ -65,28 +65,34 @@ class Following:
             np.asarray(self.model.goal.torque + np.einsum("kim,km->i", torques, off), float),
         )
 
-    def wanted(self, window: Window, first: int, horizon: int, end: Array) -> Wanted:
-        """Return what is wanted over a horizon.
+    def wanted(self, window: Window, now: int, ahead: int, horizon: int, end: Array, goal: Goal) -> Wanted:
+        """Return what is wanted over a horizon, as if the window went through a goal now.
 
         Parameters
         ----------
         window : Window
             What is to be followed.
-        first : int
-            Which of its samples is the first.
+        now : int
+            Which of its samples goes through the goal.
+        ahead : int
+            How much later the first sample of the horizon is.
         horizon : int
             N.
         end : array, (r, s + m)
-            G, of the state off the target and the last torques.
+            G, of the state off the goal and the last torques.
+        goal : Goal
+            That the state counts from.
         """
-        model, goal = self.model, self.model.goal
-        every = [self.at(window.at(first + i)) for i in range(horizon)]
-        states, torques = (np.array(each).T for each in zip(*every, strict=True))
+        model, (by_motion, torque_by) = self.model, self.terms
+        motions = np.stack([window.at(now + ahead + i) for i in range(horizon)], axis=-1)
+        motions[0] -= window.at(now)[0][:, None]
+        states = np.einsum("ksm,kmi->si", by_motion, motions)
+        torques = np.einsum("kjm,kmi->ji", torque_by, motions)
         return Wanted(
             tip=goal.tip[:, None] + model.tip @ states,
             hub=goal.hub[:, None] + model.hub @ states,
             tip_rate=model.tip_rate @ states,
             hub_rate=model.hub_rate @ states,
-            torque=torques,
-            end=end @ np.append(states[:, -1], torques[:, -1] - goal.torque),
+            torque=goal.torque[:, None] + torques,
+            end=end @ np.append(states[:, -1], torques[:, -1]),
         )

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.motors import motors_of
-from tmm_gen.control.terms import Goal
 from tmm_gen.modal.rest import rest_at
 from tmm_gen.scene import Scene
 
@@ -47,24 +46,6 @@ class LevelHolding:
 
     rows: Array
 
-    def torque(self, goal: Goal, hub: Array) -> Array:
-        """Return the torques that hold an arm whose hubs are elsewhere than at the goal; see :func:`held`."""
-        return held(self.rows, goal, hub)
-
-
-def held(holds: Array, goal: Goal, hub: Array) -> Array:
-    """Return the torques that hold an arm whose hubs are elsewhere than at the goal, (m,), N m.
-
-    Those at the goal, where beams sag as they do, and what a rigid arm's differ by.
-
-    Parameters
-    ----------
-    holds : array, (m, m)
-        Of :func:`holding`.
-    goal : Goal
-        Hubs and torques at the goal.
-    hub : array, (m,)
-        Where hubs are, rad.
-    """
-    lifted = np.cos(np.cumsum(hub)) - np.cos(np.cumsum(goal.hub))
-    return np.asarray(goal.torque + holds @ lifted, float)
+    def weight(self, hub: Array) -> Array:
+        """Return the torques that hold up an arm that does not bend, with its hubs there, rad, (m,), N m."""
+        return np.asarray(self.rows @ np.cos(np.cumsum(hub)), float)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.delay import Pair
 from tmm_gen.control.linear import LinearModel
+from tmm_gen.control.linear_target import Place
 from tmm_gen.control.problem import ControlProblem
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ class KalmanFilter:
     the drift of gauges. It is estimated as well, ``y = C x + D (e + d) + b``, or the arm would rest elsewhere than its
     encoders say. One thing is not
     linear: what the swinging arm's centripetal acceleration adds to accelerometers is taken off their readings.
+    All of it counts from the target, or from another place where the arm can rest.
 
     Parameters
     ----------
@@ -70,12 +72,20 @@ class KalmanFilter:
         self.home, self.start, self.length = model.start_hub, model.start_torque, model.length
         self.gain, self.covariance = self._stationary(tuple(self.sensors))
         self._gains = {tuple(self.sensors): self.gain}
+        self.base = Place.of(model)
         self.reset()
 
     def reset(self) -> None:
         """Start from the scene's initial motion."""
+        self.place = self.base
         self.estimate = np.append(self.model.start, np.zeros(self.model.count + len(self.biased)))
-        self._direct = self.model.start_torque - self.model.goal.torque
+        self._direct = self.model.start_torque - self.base.goal.torque
+
+    def stand(self, place: Place) -> None:
+        """Take another place to count from; what is estimated of the arm stays."""
+        self.estimate[: self.model.size] -= place.state - self.place.state
+        self._direct = self._direct - (place.goal.torque - self.place.goal.torque)
+        self.place = place
 
     def turn(self, angle: Array) -> None:
         """Turn hubs by angles, (m,), rad, with all they carry."""
@@ -84,27 +94,23 @@ class KalmanFilter:
     def rest(self, hub: Array, rate: Array) -> None:
         """Start anew from an arm of the target's shape: where its hubs are, rad, how fast they turn, rad/s, (m,)."""
         model = self.model
-        turned = model.turned @ (hub - model.goal.hub)
+        turned = model.turned @ (hub - self.place.goal.hub)
         self.estimate = np.append(turned + model.turn @ rate, np.zeros(model.count + len(self.biased)))
 
     def hubs(self) -> tuple[Array, Array]:
         """Return angles and rates of the hubs, (m,) each, rad and rad/s."""
         model, (state, _) = self.model, self._parts(self.estimate)
-        return model.hub @ state + model.goal.hub, model.hub_rate @ state
+        return model.hub @ state + self.place.goal.hub, model.hub_rate @ state
 
     def holds(self, hub: Array) -> Array:
         """Return the torques that hold an arm with its hubs there, rad, (m,), N m."""
-        return self.model.holds.torque(self.model.goal, hub) - self._parts(self.estimate)[1]
+        held = self.model.lift.beside(self.model.goal) + self.model.lift.weight(hub, self.place.more)
+        return np.asarray(held - self._parts(self.estimate)[1], float)
 
     def surprise(self, measured: Array) -> Array:
         """Return how far a measurement is off what is expected, (3 m,), NaN where there is no sensor."""
         model, (state, disturbance) = self.model, self._parts(self.estimate)
-        seen = (
-            measured
-            - model.target_sensors
-            - model.measure @ state
-            - model.feed @ (self._direct + disturbance)
-        )
+        seen = measured - self.place.shown - model.measure @ state - model.feed @ (self._direct + disturbance)
         count, rates = model.count, model.hub_rate @ state
         seen[count : 2 * count] -= model.swept @ rates @ rates
         rate = float(model.tip_rate[0] @ state)
@@ -153,7 +159,7 @@ class KalmanFilter:
     def advance(self, torques: Pair, end: Array) -> None:
         """Predict a sample with the torques that act in it, and those at its end, N m."""
         self.estimate = self._after(self.estimate, torques)
-        self._direct = end - self.model.goal.torque
+        self._direct = end - self.place.goal.torque
 
     def ahead(self, torques: list[Pair]) -> tuple[Array, Array]:
         """Return state, (s,), and disturbances, (m,), N m, after some more samples."""
@@ -168,7 +174,7 @@ class KalmanFilter:
         return estimate[:size], estimate[size : size + self.model.count]
 
     def _after(self, estimate: Array, torques: Pair) -> Array:
-        before, then = (torque - self.model.goal.torque for torque in torques)
+        before, then = (torque - self.place.goal.torque for torque in torques)
         after = self.transition @ estimate
         after[: self.model.size] += self.model.before @ before + self.model.then @ then
         return np.asarray(after, float)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arm import Holding
 from tmm_gen.control.delay import Delay
+from tmm_gen.control.lift import Lift
 from tmm_gen.control.terms import Goal
 
 Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ class LinearModel:
         State at time zero.
     start_torque : array, (m,)
         Torques before any is chosen, N m.
-    holds : Holding
+    lift : Lift
         What holds the arm up.
     delay : Delay
         Which torques are meant.
@@ -80,7 +80,7 @@ class LinearModel:
     length: float
     start: Array
     start_torque: Array
-    holds: Holding
+    lift: Lift
     delay: Delay
 
     @property

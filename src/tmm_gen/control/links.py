@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.lift import Lift
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.control.target import Target, find_target
@@ -63,6 +63,6 @@ def links_model(model: StepModel) -> LinearModel:
         length=float(motors.lengths.sum()),
         start=model.initial() - state,
         start_torque=model.start.torque,
-        holds=arm_of(model.scene).holding(),
+        lift=Lift.of(model.scene),
         delay=model.delay,
     )

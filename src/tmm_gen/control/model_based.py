@@ -111,14 +111,18 @@ class ModelBased(ABC):
         UserError
             If the arm stands on a hub.
         """
-        if self.problem.motors.on_hub:
-            raise UserError(
-                "only arms whose motors are parts by name follow a reference: write the arm by parts"
-            )
+        self._require_movable()
         if not np.all(np.isfinite(angles)):
             return Status.NOT_FINITE
         self._window, self._passed = Window.of(np.asarray(angles, float), self.problem.sample_time), 0
         return Status.OK
+
+    def _require_movable(self) -> None:
+        if self.problem.motors.on_hub:
+            raise UserError(
+                "only arms whose motors are parts by name take another reference or payload while they run: write the "
+                "arm by parts, or other numbers in the scene"
+            )
 
     def limit(self, lower: Array, upper: Array) -> Status:
         """Take other bounds of the torques from the next command on, until :meth:`reset`.
@@ -206,17 +210,22 @@ class ModelBased(ABC):
         self._passed += 1
         return command
 
-    def _safe(self, hub: Array, rate: Array, last: Array) -> Array:
-        """Return the torques of the safe law.
+    def _safe(self, hub: Array, rate: Array, last: Array, wanted: Array | float = 0.0) -> Array:
+        """Return the torques of the safe law, for rates that are wanted, (m,), rad/s.
 
         That of an arm on a hub brakes by the encoder alone. Motors by name hold the arm up as well, and where an
         encoder shows nothing the estimate stands in for it.
         """
         if self.problem.motors.on_hub:
             return safe_torque(self.problem, self.inertia, rate, last)
-        (angles, rates), there = self.estimator.hubs(), self.limits.is_place(hub)
-        held = self.estimator.holds(np.where(there, hub, angles))
-        return safe_torque(self.problem, self.inertia, np.where(there, rate, rates), last, held)
+        there = self.limits.is_place(hub)
+        held = self.estimator.holds(self._shown_angles(hub))
+        rates = np.where(there, rate, self.estimator.hubs()[1])
+        return safe_torque(self.problem, self.inertia, rates, last, held, wanted)
+
+    def _shown_angles(self, hub: Array) -> Array:
+        """Return where hubs are by the encoders, and by the estimate where one shows nothing."""
+        return np.where(self.limits.is_place(hub), hub, self.estimator.hubs()[0])
 
     def _decided(self, measured: Array, rate: Array, last: Array) -> Command:
         """Return the torques, by what can be believed of a measurement."""

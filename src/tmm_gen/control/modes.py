@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arms import arm_of
 from tmm_gen.control.delay import delay_of
+from tmm_gen.control.lift import Lift
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.prediction import fine_scene
@@ -97,7 +97,7 @@ def modes_model(scene: Scene, problem: ControlProblem) -> LinearModel:
         length=length,
         start=np.concatenate([start, coordinates @ initial.rates]),
         start_torque=initial.torque,
-        holds=arm_of(fine).holding(),
+        lift=Lift.of(fine),
         delay=delay,
     )
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arm import ControlledArm
-from tmm_gen.control.arms import arm_of
 from tmm_gen.control.command import Status
 from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.linear import LinearModel
@@ -62,7 +60,7 @@ class Movable(ModelBased):
     def reset(self) -> None:
         """Forget all measurements, what was aimed at and carried."""
         self.model = self.unchanged
-        self.estimator.carry(self.model, np.zeros_like)
+        self.estimator.carry(self.model, 0.0)
         self.goal, self.rest, self.moved = self.linear.goal, self.target, False
         self._poses: list[Pose] = []
         super().reset()
@@ -179,7 +177,8 @@ class Movable(ModelBased):
         status = self._rest_in(pose_in(model, still, Pose(self.rest, self.goal.torque)))
         if status is Status.OK:
             self.model, self._poses = model, poses
-            self.estimator.carry(model, partial(_more, arm_of(model.scene), arm_of(self.unchanged.scene)))
+            assert self.linear.lift.payload is not None
+            self.estimator.carry(model, payload - self.linear.lift.payload)
         return status
 
     def _rest_in(self, still: Pose | None) -> Status:
@@ -197,11 +196,10 @@ class Movable(ModelBased):
         return Status.OK
 
     def _require_movable(self) -> None:
-        if self.model.motors.on_hub:
-            raise UserError(
-                f"{self.model.scene.source.origin}: only arms whose motors are parts by name take another reference or "
-                "payload while they run: write the arm by parts, or other numbers in the scene."
-            )
+        try:
+            super()._require_movable()
+        except UserError as error:
+            raise UserError(f"{self.model.scene.source.origin}: {error}") from None
 
     def _wanted(self) -> tuple[Wanted, Pose]:
         """Return what is wanted over the horizon, its end reckoned from the pose that is wanted there."""
@@ -214,11 +212,3 @@ class Movable(ModelBased):
         tip, tip_rate, hub, hub_rate = np.split(outputs, 4)
         torque = np.column_stack([pose.torque for pose in poses])
         return Wanted(tip, hub, tip_rate, hub_rate, torque, np.zeros(1)), poses[-1]
-
-
-def _more(laden: ControlledArm, other: ControlledArm, hub: Array) -> Array:
-    """Return what holds up more of one arm than of another with hubs there, if nothing bends, (m,), N m."""
-    hubs = hub[None]
-    still = np.zeros_like(hubs)
-    found = laden.rigid_torques(hubs, still, still) - other.rigid_torques(hubs, still, still)
-    return np.asarray(found[0], float)

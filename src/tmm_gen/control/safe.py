@@ -14,12 +14,16 @@ BRAKE_TIME = 0.1
 
 
 def safe_torque(
-    problem: ControlProblem, inertia: Array, rate: Array, last: Array, held: Array | None = None
+    problem: ControlProblem,
+    inertia: Array,
+    rate: Array,
+    last: Array,
+    held: Array | None = None,
+    wanted: Array | float = 0.0,
 ) -> Array:
-    """Return torques that brake the hubs: ``held - inertia rate / BRAKE_TIME`` each, within all bounds, (m,), N m.
+    """Return torques that brake the hubs: ``held - inertia (rate - wanted) / BRAKE_TIME`` each, within all bounds, N m.
 
-    They need the encoders alone. Where one fails too, its ``rate`` is not finite and its torque goes to what holds the
-    arm as fast as its bounds allow.
+    They need the encoders alone. Where one fails too, its ``rate`` is not finite and taken to be zero.
 
     Parameters
     ----------
@@ -33,6 +37,8 @@ def safe_torque(
         Torques commanded a sample before, N m.
     held : array, (m,), optional
         Torques that hold the arm, N m; by default none.
+    wanted : array, (m,), optional
+        Rates that hubs are brought to, rad/s; by default they are brought to rest.
     """
-    brakes = np.where(np.isfinite(rate), -inertia * rate / BRAKE_TIME, 0.0)
+    brakes = inertia * (wanted - np.where(np.isfinite(rate), rate, 0.0)) / BRAKE_TIME
     return problem.allowed(brakes if held is None else held + brakes, last)

@@ -14,7 +14,6 @@ from tmm_gen.control.arm import Held, Holding
 from tmm_gen.control.motor_rows import Motors
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.space_motors import outer_bodies
-from tmm_gen.control.terms import Goal
 from tmm_gen.modal.space.matrices import space_matrices
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.still import Still
@@ -106,8 +105,7 @@ class RigidHolding:
 
     arm: SpaceArm
 
-    def torque(self, goal: Goal, hub: Array) -> Array:
-        """Return the torques at the goal, and what those of a rigid arm differ by, (m,), N m."""
-        hubs = np.array([hub, goal.hub])
-        here, there = self.arm.rigid_torques(hubs, np.zeros_like(hubs), np.zeros_like(hubs))
-        return np.asarray(goal.torque + here - there, float)
+    def weight(self, hub: Array) -> Array:
+        """Return the torques that hold it up with its hubs there, rad, (m,), N m."""
+        still = np.zeros((1, len(hub)))
+        return np.asarray(self.arm.rigid_torques(hub[None], still, still)[0], float)

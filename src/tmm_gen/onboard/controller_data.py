@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.credible import Credible
 from tmm_gen.onboard.program_data import ProgramData
+from tmm_gen.onboard.weight import Weight
 
 
 class ControllerData(Protocol):
@@ -47,4 +48,24 @@ class ControllerData(Protocol):
     @property
     def credible(self) -> Credible:
         """What can be believed of a measurement."""
+        ...
+
+    @property
+    def target_hub(self) -> NDArray[np.float64]:
+        """Angles of the hubs at the target, (m,), rad."""
+        ...
+
+    @property
+    def target_torque(self) -> NDArray[np.float64]:
+        """Torques there, (m,), N m."""
+        ...
+
+    @property
+    def holds(self) -> NDArray[np.float64]:
+        """What holds up an arm in a plane, (m, m), N m."""
+        ...
+
+    @property
+    def weight(self) -> Weight | None:
+        """What holds up an arm in space."""
         ...

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.arm import Holding
 from tmm_gen.control.credible import Credible
 from tmm_gen.control.holding import LevelHolding
 from tmm_gen.control.kalman import KalmanFilter
@@ -15,6 +16,7 @@ from tmm_gen.control.safe import BRAKE_TIME
 from tmm_gen.control.space_arm import RigidHolding
 from tmm_gen.control.terms import Kind
 from tmm_gen.onboard.linear_maps import affine_maps, first_active, folded
+from tmm_gen.onboard.linear_pull import pull_of
 from tmm_gen.onboard.program_data import ProgramData, program_data
 from tmm_gen.onboard.weight import Weight, weight_of
 
@@ -84,6 +86,27 @@ class LinearMpcData:
         What holds up an arm in a plane, N m; see :func:`tmm_gen.control.holding.holding`.
     weight : Weight or None
         What holds up an arm in space.
+    holds_more : array, (m, m)
+        By how much these grow for each kilogram at the tip, N m/kg; zero where that makes no difference.
+    payload : float or None
+        Mass at the tip, kg; None where another makes no difference to what holds the arm up.
+    payloads : (float, float)
+        The least and the largest one that the model is good for, kg.
+    sag, felt : array, (s, m) and (p, m)
+        Of a rest elsewhere; see :class:`~tmm_gen.control.linear_target.Places`.
+    reach : array, (m,)
+        How far from the arm its target may be, rad.
+    tips : tuple of (int, array, array)
+        Which kinds of rows bound tips; by how much the tip at the target grows with each radian that hubs turn, (m,), and
+        with the sines of their angles, (m,).
+    answers : array, (outputs, m, N)
+        Of what is weighed to each motor's torque, sample by sample.
+    pulls : array, (outputs, 3 m)
+        What a motion of the hubs, (3, m), makes of that, times its weight.
+    priced : array, (m, 3 m)
+        The same of the torques.
+    end_pulls : array, (m N, 3 m)
+        What the motion at the end makes of the gradient.
     first : tuple of int
         Bounds that are active at the start, counted from 1, lower ones negative, a sample later than they are: where
         a solver that lets them move on by a sample begins. So the first sample is none of the longest.
@@ -126,6 +149,17 @@ class LinearMpcData:
     brake: Array
     holds: Array
     weight: Weight | None
+    holds_more: Array
+    payload: float | None
+    payloads: tuple[float, float]
+    sag: Array
+    felt: Array
+    reach: Array
+    tips: tuple[tuple[int, Array, Array], ...]
+    answers: Array
+    pulls: Array
+    priced: Array
+    end_pulls: Array
     first: tuple[int, ...]
 
 
@@ -140,7 +174,12 @@ def linear_mpc_data(controller: LinearMpc) -> LinearMpcData:
     shift = program.inverse.T @ gradient
     kept, others, fold = folded(np.vstack([model.transition, shift[:, :size], free[:, :size]]))
     known = [*kept, *range(size, size + 2 * count + 1)]
-    holds = model.holds
+    lift, places, pull = model.lift, controller.places, pull_of(controller)
+    lighter, heavier = lift.holding, lift.holding_heavier if lift.carries else lift.holding
+    level = [
+        each.rows if isinstance(each, LevelHolding) else np.zeros((count, count))
+        for each in (lighter, heavier)
+    ]
     return LinearMpcData(
         size=size,
         biases=len(kalman.biased),
@@ -177,10 +216,32 @@ def linear_mpc_data(controller: LinearMpc) -> LinearMpcData:
         kinds=controller.condensed.kinds,
         rest=free[:: problem.horizon, -1] if kinds else np.zeros(0),
         brake=controller.inertia / BRAKE_TIME,
-        holds=holds.rows if isinstance(holds, LevelHolding) else np.zeros((count, count)),
-        weight=weight_of(holds.arm, holds.arm, count) if isinstance(holds, RigidHolding) else None,
+        holds=level[0],
+        holds_more=level[1] - level[0],
+        payload=lift.payload if lift.carries else None,
+        payloads=controller.payloads if lift.carries else (0.0, 0.0),
+        weight=_weight(lighter, heavier, count),
+        sag=places.sag,
+        felt=places.felt[kalman.sensors],
+        reach=controller.reach,
+        tips=tuple(
+            (place, model.tip[kind.motor] @ model.turned, model.tip[kind.motor] @ places.sag)
+            for place, kind in enumerate(controller.condensed.kinds)
+            if kind.what == "tip"
+        ),
+        answers=pull.answers,
+        pulls=pull.pulls,
+        priced=pull.priced,
+        end_pulls=pull.end_pulls,
         first=first_active(controller, program, free),
     )
+
+
+def _weight(arm: Holding, heavier: Holding, motors: int) -> Weight | None:
+    """Return what holds up an arm in space."""
+    if not isinstance(arm, RigidHolding) or not isinstance(heavier, RigidHolding):
+        return None
+    return weight_of(arm.arm, heavier.arm, motors)
 
 
 def gains_by_sensors(kalman: KalmanFilter) -> Array:

@@ -26,16 +26,12 @@ def affine_maps(controller: LinearMpc) -> tuple[Array, Array]:
     problem, found, target = controller.problem, controller.response, controller.model
     size, count = target.size, problem.count
     none = np.zeros((count, problem.horizon))
+    offsets = controller.offsets(target.goal)
 
     def at(z: Array) -> tuple[Array, Array]:
         state, pushed, last, one = z[:size], z[size : size + count], z[size + count : -1], z[-1]
         disturbance = pushed + target.goal.torque * one
-        motion = (
-            found.by_state @ state
-            + found.by_constant @ pushed
-            + found.by_last @ last
-            + controller.offsets * one
-        )
+        motion = found.by_state @ state + found.by_constant @ pushed + found.by_last @ last + offsets * one
         along = found.outputs(motion)
         gradient = controller.condensed.gradient(along, none, last, disturbance)[: none.size]
         rows = [

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.linear_mpc import APPROACH_TIME
 from tmm_gen.onboard.linear_data import LinearMpcData
+from tmm_gen.onboard.program_data import INFINITE
 from tmm_gen.onboard.text import ControllerText
 
 
@@ -24,14 +26,54 @@ class LinearText(ControllerText):
     data: LinearMpcData
 
     @property
-    def weighs(self) -> bool:
-        """Whether an arm in space is to be held up."""
-        return self.data.weight is not None and bool(self.data.weight.terms)
+    def moves(self) -> bool:
+        """Whether the reference may be another one at run time."""
+        return self.several
 
     @property
-    def lifts(self) -> bool:
-        """Whether an arm in a plane is to be held up."""
-        return bool(self.data.holds.any())
+    def carries(self) -> bool:
+        """Whether the payload may be another one at run time."""
+        return self.moves and self.data.payload is not None
+
+    @property
+    def approaches(self) -> bool:
+        """Whether hubs are brought near where the controller's model is not good."""
+        return self.several
+
+    @property
+    def approach_time(self) -> float:
+        """Time constant of that, s."""
+        return APPROACH_TIME
+
+    @property
+    def fastest(self) -> NDArray[np.float64]:
+        """Rates of hubs, (m,), rad/s, infinite as the solver has it."""
+        return np.minimum(self.problem.hub_rate, INFINITE)
+
+    @property
+    def told_reach(self) -> str:
+        """How far the model is good, for people."""
+        return ", ".join(f"{value:g}" for value in self.data.reach)
+
+    @property
+    def bounds_places(self) -> bool:
+        """Whether rows bound tips or hubs."""
+        return bool(self.data.tips or self.turned_kinds)
+
+    @property
+    def sags(self) -> bool:
+        """Whether weight makes a difference to how the arm rests elsewhere."""
+        return self.upheld
+
+    @property
+    def feels(self) -> bool:
+        """Whether sensors behind the encoders show that."""
+        return self.sags and len(self.data.sensors) > self.motors
+
+    @property
+    def turned_kinds(self) -> list[tuple[int, int]]:
+        """Kinds of rows that bound hubs, and whose."""
+        return [(place, kind.motor) for place, kind in enumerate(self.data.kinds) if kind.what == "hub"]
 
     @property
     def estimated(self) -> str:

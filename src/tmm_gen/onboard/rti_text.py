@@ -97,16 +97,6 @@ class RtiText(WallText):
         straight = self.number(0.0)
         return [(a + 1, b, straight) for a, b in pairwise(places) if a + 1 < b]
 
-    @property
-    def weighs(self) -> bool:
-        """Whether an arm in space is to be held up."""
-        return self.data.weight is not None and bool(self.data.weight.terms)
-
-    @property
-    def lifts(self) -> bool:
-        """Whether an arm in a plane is to be held up."""
-        return bool(self.data.holds.any())
-
     def spread(self, motor: int) -> tuple[str, int, int]:
         """Return weights of angles in the tip's of a motor, an array, and from where to where they are not zero."""
         if not self.in_space:

@@ -28,7 +28,7 @@ def test_torques_of_the_quadratic_program_are_those_of_a_generic_solver(two: Ben
     assert solution.status is Status.OK
     made, condensed = mpc.response, mpc.condensed
     found = made.by_state @ state - made.by_constant @ two.links.goal.torque + made.by_last @ last
-    along, nothing = made.outputs(found + mpc.offsets), np.zeros((2, two.problem.horizon))
+    along, nothing = made.outputs(found + mpc.offsets(two.links.goal)), np.zeros((2, two.problem.horizon))
     low, high = condensed.bounds(along, nothing, last)
     options = {"print_iter": False, "print_header": False, "constr_viol_tol": 1e-11, "dual_inf_tol": 1e-11}
     structure = {"h": ca.DM(condensed.hessian).sparsity(), "a": ca.DM(condensed.rows).sparsity()}

@@ -11,8 +11,8 @@ from scipy.linalg import expm, solve_discrete_are
 
 from tmm_gen.control.arms import arm_of
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.holding import held, holding
 from tmm_gen.control.inverse_dynamics import SPARED, quintic_way
+from tmm_gen.control.lift import Lift
 from tmm_gen.control.lqr import Regulator
 from tmm_gen.control.modes import modes_model
 from tmm_gen.control.target import find_target
@@ -134,7 +134,7 @@ def test_what_holds_the_arm_up_is_what_a_rigid_one_needs() -> None:
     still, goal = np.zeros_like(hub), Goal(tip=hub[0], hub=hub[0], torque=np.array([0.2, 0.1]))
     rigid = arm_of(scene).rigid_torques(hub, still, still)
     for k in range(4):
-        assert_allclose(held(holding(scene), goal, hub[k]), goal.torque + rigid[k] - rigid[0], atol=1e-12)
+        assert_allclose(Lift.of(scene).torque(goal, hub[k]), goal.torque + rigid[k] - rigid[0], atol=1e-12)
 
 
 def test_a_quintic_lasts_as_long_as_the_bounds_make_it(two: Bench) -> None:

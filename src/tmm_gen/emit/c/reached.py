@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from tmm_gen.program.count import count_expression
-from tmm_gen.program.passes.dependence import SCRATCH, first_uses
+from tmm_gen.program.passes.accesses import first_uses
 from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, Statement
-from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+from tmm_gen.program.variables import SCRATCH, Ref, Role, Variable, refs_in
 
 MOST_FOLLOWED = 2
 """Arrays of which it is worth asking at every station whether they change."""
