@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.condensed import BEYOND
+from tmm_gen.control.part_frame import Frame, part_frame
 from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.reach import Frame
-from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.target import rest_with
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
@@ -65,7 +64,7 @@ class Wall:
 
     Parameters
     ----------
-    frame : Frame or SpaceFrame
+    frame : Frame
         Outer end of the part.
     normal : array, (2,) or (3,)
         Of length 1, away from the wall.
@@ -73,19 +72,18 @@ class Wall:
         Of the wall along it, m.
     """
 
-    frame: Frame | SpaceFrame
+    frame: Frame
     normal: Array
     offset: float
 
     @classmethod
     def of(cls, scene: Scene, keep: Keep) -> Wall:
         """Return a wall of a scene, or of one of the same parts in other links."""
-        normal, arm = np.array(keep.normal), scene.spatial
-        frame = Frame.of(scene, keep.frame) if arm is None else SpaceFrame.of(arm, keep.frame)
+        normal = np.array(keep.normal)
         normal /= np.max(
             np.abs(normal)
         )  # of any length: squares of what is very long or short leave the range
-        return cls(frame, normal / np.linalg.norm(normal), keep.offset)
+        return cls(part_frame(scene, keep.frame), normal / np.linalg.norm(normal), keep.offset)
 
     def along(self, angles: Array) -> Array:
         """Return how far the part is along the normal, (k,), m, for angles of the arm, (k, d), rad."""
