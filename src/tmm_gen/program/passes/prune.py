@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import sympy as sp
+
 from tmm_gen.program.passes.lifetimes import Uses, carried_scalars
 from tmm_gen.program.passes.rewrite import keep_assignments, keep_statements
 from tmm_gen.program.statements import Assign, Loop, Require, Routine, Section, Statement
@@ -19,12 +21,16 @@ def prune(routine: Routine, wanted: frozenset[Variable]) -> Routine:
         Results of the routine: state, coefficients or outputs that live on after it.
     """
     while True:
-        alive = _alive(routine, wanted)
-        pruned = keep_assignments(routine, lambda a, alive=alive: a.target.variable in alive)  # type: ignore[misc]
-        pruned = _without_unread(pruned, wanted)
+        pruned = _without_unread(_without_dead(routine, wanted), wanted)
         if pruned == routine:
             return routine
         routine = pruned
+
+
+def _without_dead(routine: Routine, wanted: frozenset[Variable]) -> Routine:
+    """Remove what only feeds itself, or others that do."""
+    alive = _alive(routine, wanted)
+    return keep_assignments(routine, lambda assign: assign.target.variable in alive)
 
 
 def _alive(routine: Routine, wanted: frozenset[Variable]) -> set[Variable]:
@@ -56,7 +62,7 @@ def without_requirements(routine: Routine, wanted: frozenset[Variable] = frozens
     return prune(keep_statements(routine, lambda s: not isinstance(s, Require)), lives_on | wanted)
 
 
-def _required(routine: Routine) -> list:  # type: ignore[type-arg]
+def _required(routine: Routine) -> list[sp.Expr]:
     assigned = {id(a.value) for a in routine.assignments()}
     return [value for value in routine.values() if id(value) not in assigned]
 
