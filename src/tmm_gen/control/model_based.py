@@ -51,6 +51,10 @@ class Estimator(Protocol):
         """Return how far a measurement is off what is expected, (3 m,)."""
         ...
 
+    def taken_in(self, sensors: tuple[int, ...]) -> tuple[int, ...]:
+        """Return what tells how sensors behind the encoders are taken in: as before where it is the same."""
+        ...
+
     def correct(self, surprise: Array, sensors: tuple[int, ...], most: Array) -> None:
         """Take in what some sensors are off, (3 m,); disturbances stay within ``most`` N m, (m,), either way."""
 
@@ -246,8 +250,8 @@ class ModelBased(ABC):
         elif placed:
             self._foreseen = 0
         if encoders == list(np.flatnonzero(there)):  # no encoder is off
+            self._read = self.estimator.taken_in(believed[len(encoders) :])
             self.estimator.correct(surprise, believed, self.limits.disturbance)
-            self._read = believed[len(encoders) :]
         elif self._wrong >= PATIENCE:  # and an encoder jumps, so that nobody knows where the arm is
             return Command(none, Status.MEASUREMENT)
         command = self._solved(last)

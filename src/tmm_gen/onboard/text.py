@@ -132,6 +132,11 @@ class ControllerText:
         return data.target_torque - lifted
 
     @property
+    def far(self) -> bool:
+        """Whether other gains of the filter are used far from the target."""
+        return False
+
+    @property
     def motors(self) -> int:
         """Number of motors, m."""
         return self.problem.count
