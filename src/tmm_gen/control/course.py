@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.reach import rest_with_frame
 from tmm_gen.control.target import Target, require_within, rest_with
+from tmm_gen.control.where import where
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.curve import through
 from tmm_gen.inputs.given import read_tables
@@ -97,7 +98,11 @@ def _from_file(scene: Scene, problem: ControlProblem, way: Trajectory, path: Pat
     """Return the course that a CSV file tells, by joint angles or by positions of a part."""
     axes = "xy" if scene.spatial is None else "xyz"
     names = problem.motors.names if way.frame is None else tuple(f"{way.frame}_{axis}" for axis in axes)
-    tables = [table for table in read_tables(path, names).values() if isinstance(table, Table)]
+    tables = [
+        table
+        for table in read_tables(path, names, what=f"{where(scene, 'control.trajectory.file')}: ").values()
+        if isinstance(table, Table)
+    ]
     last = float(tables[0].times[-1])
     instants = problem.sample_time * np.arange(int(np.ceil(last / problem.sample_time - 1e-9)) + 1)
     told = np.column_stack([through(table).at(np.minimum(instants, last)) for table in tables])
@@ -132,6 +137,6 @@ def _require_room(scene: Scene, problem: ControlProblem, target: Target, key: st
         if bounds is not None and not bounds[0] <= angle <= bounds[1]:
             whose = "control.bounds.hub" if scene.spatial is None else "its limits or control.bounds.hub"
             raise UserError(
-                f"{scene.source.origin}: {key}: the joint of motor '{name}' would be at {angle:.4g} rad, beyond "
+                f"{where(scene, key)}: the joint of motor '{name}' would be at {angle:.4g} rad, beyond "
                 f"{whose}, [{bounds[0]:g}, {bounds[1]:g}]. Widen the bounds, or take another position."
             )

@@ -11,6 +11,7 @@ from tmm_gen.control.part_frame import Frame, part_frame
 from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.target import Target, rest_with
 from tmm_gen.control.terms import Goal
+from tmm_gen.control.where import where
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 from tmm_gen.scene.spatial.reach import way_to
@@ -56,7 +57,7 @@ def rest_with_frame(scene: Scene, name: str, position: Array, starts: list[Array
         nearest = min(nearest, left)
     told = ", ".join(f"{each:g}" for each in position)
     raise UserError(
-        f"{scene.source.origin}: {key}: '{name}' cannot rest at [{told}] m: it came no nearer than "
+        f"{where(scene, key)}: '{name}' cannot rest at [{told}] m: it came no nearer than "
         f"{nearest:.3g} m. {_advice(scene, frame)}"
     )
 

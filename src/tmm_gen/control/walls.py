@@ -11,26 +11,19 @@ from tmm_gen.control.condensed import BEYOND
 from tmm_gen.control.part_frame import Frame, part_frame
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.target import rest_with
+from tmm_gen.control.where import where
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
-from tmm_gen.scene.locate import nearest_line
-from tmm_gen.scene.problem import Path
 from tmm_gen.scene.trajectory import Keep
 
 Array = NDArray[np.float64]
 
 
-def where(scene: Scene, *more: int) -> str:
-    """Return where a scene tells of its walls, or of one of them, from 0: file, line and key."""
-    path: Path = ("control", "keep", *more)
-    key = "control.keep" + "".join(f"[{number + 1}]" for number in more)
-    return f"{scene.source.origin}:{nearest_line(scene.source.lines, path)}: {key}"
-
-
 def keeps_no_walls(scene: Scene, controller: str, others: str) -> UserError:
     """Return the error of a controller that knows of none, with the names of others that do."""
+    place = where(scene, "control.keep")
     return UserError(
-        f"{where(scene)}: the controller '{controller}' keeps no walls; take {others}, or remove the table."
+        f"{place}: the controller '{controller}' keeps no walls; take {others}, or remove the table."
     )
 
 
@@ -47,11 +40,12 @@ def far_behind(scene: Scene, problem: ControlProblem) -> list[str]:
     if not problem.keeps:
         return []
     angles, found = rest_with(scene, problem.start, "initial.angles").angles, []
-    for number, keep in enumerate(problem.keeps):
+    for number, keep in enumerate(problem.keeps, 1):
         behind = keep.offset + keep.margin - float(Wall.of(scene, keep).along(angles[None])[0])
         if behind > BEYOND:
+            place = where(scene, f"control.keep[{number}]")
             found.append(
-                f"{where(scene, number)}: '{keep.frame}' starts {behind:.3g} m beyond what it is to keep, and what is "
+                f"{place}: '{keep.frame}' starts {behind:.3g} m beyond what it is to keep, and what is "
                 f"more than {BEYOND:g} m beyond is held by no wall until it is back. Set a smaller offset, or other "
                 "initial.angles."
             )
