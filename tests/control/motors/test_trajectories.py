@@ -188,7 +188,7 @@ def test_controllers_follow_and_without_a_wall_the_payload_goes_through_it(lower
     with pytest.raises(UserError, match=r":\d+: control\.keep: .* keeps no walls; take rti-zero, rti"):
         BY_NAME["mpc-links"].require_able(walled)
     assert usual_controller(walled) == "rti-zero"  # and not one that would be refused then
-    with pytest.raises(UserError, match=r"follows no control\.trajectory; take one of pd,"):
+    with pytest.raises(UserError, match=r":\d+: control\.trajectory: .* follows none; take one of pd,"):
         BY_NAME["nmpc"].require_able(lowered)
 
 
