@@ -97,8 +97,7 @@ class LinearMpcData:
     reach : array, (m,)
         How far from the arm its target may be, rad.
     tips : tuple of (int, array, array)
-        Which kinds of rows bound tips; by how much the tip at the target grows with each radian that hubs turn,
-        (m,), and with the sines of their angles, (m,).
+        Which kinds of rows bound tips; what a tip at the target grows with: hubs' angles, (m,), and their sines, (m,).
     answers : array, (outputs, m, N)
         Of what is weighed to each motor's torque, sample by sample.
     pulls : array, (outputs, 3 m)

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.linear_mpc import APPROACH_TIME
+from tmm_gen.onboard.held_text import HeldText
 from tmm_gen.onboard.linear_data import LinearMpcData
 from tmm_gen.onboard.program_data import INFINITE
-from tmm_gen.onboard.text import ControllerText
 
 
 @dataclass(frozen=True, eq=False)
-class LinearText(ControllerText):
+class LinearText(HeldText):
     """What the templates of a linear MPC ask for.
 
     Parameters
