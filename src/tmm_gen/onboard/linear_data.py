@@ -95,7 +95,7 @@ class LinearMpcData:
     sag, felt : array, (s, m) and (p, m)
         Of a rest elsewhere; see :class:`~tmm_gen.control.linear_target.Places`.
     reach : array, (m,)
-        How far from the arm its target may be, rad.
+        How far the model is good, rad; see :class:`~tmm_gen.control.linear_mpc.LinearMpc`.
     tips : tuple of (int, array, array)
         Which kinds of rows bound tips; what a tip at the target grows with: hubs' angles, (m,), and their sines, (m,).
     answers : array, (outputs, m, N)
