@@ -51,9 +51,15 @@ class LinearText(HeldText):
         return np.minimum(self.problem.hub_rate, INFINITE)
 
     @property
+    def ranges(self) -> NDArray[np.float64]:
+        """How far hubs may be from the target, (m,), rad, infinite as the solver has it."""
+        return np.minimum(self.data.range, INFINITE)
+
+    @property
     def told_reach(self) -> str:
         """How far the model is good, for people."""
-        return ", ".join(f"{value:g}" for value in self.data.reach)
+        names = zip(self.problem.motors.names, self.data.range, strict=True)
+        return ", ".join(f"{value:g} rad ({name})" for name, value in names if np.isfinite(value))
 
     @property
     def bounds_places(self) -> bool:

@@ -27,7 +27,9 @@ BOUNDED = {
     "control.bounds.hub_rate": 4.0,
 }
 FELT = {"control.sensors.accelerometer": {"elbow": 0.02}, "control.sensors.strain": 0.002}
-FAR = np.array([2.2, -1.2])
+DAQP = 1e-9
+"""Both solve the same program to its tolerance, by ways of their own, N m."""
+FAR = np.array([1.2, 2.2])
 """Further from the scene's reference than a linear model of it is good."""
 
 
@@ -70,9 +72,9 @@ def test_what_is_told_makes_the_torques_of_python(pair: tuple[Bench, EmittedCont
     problem = bench.problem
     plant, random = Plant(bench.scene, problem, CONDITIONS[1], seed=4), np.random.default_rng(7)
     course, taken, far = course_of(bench, np.array([0.6, -0.9]), 60), 0, 0
-    aims = {40: [0.9, -0.8], 44: [0.92, -0.82], 60: FAR, 90: problem.reference}
-    payloads = {6: 0.35, 12: 0.0, 70: 0.28, 100: 0.3}
-    for k in range(120):
+    aims = {40: [0.9, -0.8], 44: [0.92, -0.82], 58: FAR, 96: problem.reference}
+    payloads = {6: 0.35, 12: 0.0, 57: 0.28, 112: 0.3}
+    for k in range(130):
         if k < 26 and k not in (8, 9, 10):
             ahead = course.ahead(k, problem.horizon)
             assert emitted.follow(ahead) is python.follow(ahead) is Status.OK
@@ -86,13 +88,13 @@ def test_what_is_told_makes_the_torques_of_python(pair: tuple[Bench, EmittedCont
             emitted.prepare()
             python.prepare()
         expected, found = python.command(seen, valid), emitted.command(np.where(valid, seen, 7.0), valid)
-        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=1e-10)
+        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=DAQP)
         assert found.status is expected.status, k
-        far += bool(np.any(np.abs(python.estimator.hubs()[0] - problem.reference) > python.reach))
+        far += bool(np.any(np.abs(python.estimator.hubs()[0] - problem.reference) > python.range))
         taken += found.status is Status.OK
         plant.advance(expected.torque)
     assert taken > 60
-    assert 5 < far < 60
+    assert 3 < far < 70
 
 
 @pytest.mark.compiler
@@ -130,7 +132,7 @@ def test_what_cannot_be_leaves_what_was_told(pair: tuple[Bench, EmittedControlle
     for _ in range(5):
         seen = plant.measured()
         expected, found = python.command(seen), emitted.command(seen)
-        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=1e-10)
+        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=DAQP)
         plant.advance(expected.torque)
 
 

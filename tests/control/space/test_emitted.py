@@ -218,7 +218,7 @@ def test_linear_control_is_that_of_python(reach: Scene) -> None:
             ahead = course.ahead(k, horizon)
             assert emitted.follow(ahead) is python.follow(ahead) is Status.OK
         if k == 48:
-            elsewhere = felt.problem.reference + [-3.0, 0.2]
+            elsewhere = felt.problem.reference + np.array([-3.0, 0.2])
             assert emitted.aim(elsewhere) is python.aim(elsewhere) is Status.OK
         seen, valid = plant.measured(), random.random(6) < 0.9
         valid[:2] &= not 25 <= k < 35
