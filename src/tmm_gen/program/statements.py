@@ -9,7 +9,7 @@ from functools import cached_property
 
 import sympy as sp
 
-from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+from tmm_gen.program.variables import Ref, Role, Variable, refs_in, variables_in
 
 
 @dataclass(frozen=True)
@@ -161,7 +161,7 @@ class Routine:
 
     @cached_property
     def _read(self) -> frozenset[Variable]:
-        return frozenset(ref.variable for value in self.values() for ref in refs_in(value))
+        return frozenset().union(*map(variables_in, self.values()))
 
     def written(self) -> frozenset[Variable]:
         """Variables that are assigned."""

@@ -9,7 +9,7 @@ import sympy as sp
 from tmm_gen.program.passes.lifetimes import Uses, carried_scalars
 from tmm_gen.program.passes.rewrite import keep_assignments, keep_statements
 from tmm_gen.program.statements import Assign, Loop, Require, Routine, Section, Statement
-from tmm_gen.program.variables import SCRATCH, Variable, refs_in
+from tmm_gen.program.variables import SCRATCH, Variable, variables_in
 
 
 def prune(routine: Routine, wanted: frozenset[Variable]) -> Routine:
@@ -21,9 +21,10 @@ def prune(routine: Routine, wanted: frozenset[Variable]) -> Routine:
         Results of the routine: state, coefficients or outputs that live on after it.
     """
     while True:
-        pruned = _without_unread(_without_dead(routine, wanted), wanted)
-        if pruned == routine:
-            return routine
+        kept = _without_dead(routine, wanted)
+        pruned = _without_unread(kept, wanted)
+        if pruned == kept:  # nor is anything dead then that was alive before
+            return routine if kept == routine else kept
         routine = pruned
 
 
@@ -37,11 +38,10 @@ def _alive(routine: Routine, wanted: frozenset[Variable]) -> set[Variable]:
     """Return what is wanted, or read by what is; what only feeds itself, or others that do, is not among it."""
     alive = set(wanted)
     for value in _required(routine):
-        alive.update(ref.variable for ref in refs_in(value))
+        alive |= variables_in(value)
     feeding: dict[Variable, set[Variable]] = {}
     for assign in routine.assignments():
-        read = feeding.setdefault(assign.target.variable, set())
-        read.update(ref.variable for ref in refs_in(assign.value))
+        feeding.setdefault(assign.target.variable, set()).update(variables_in(assign.value))
     ahead = list(alive)
     while ahead:
         more = feeding.get(ahead.pop(), set()) - alive
@@ -98,6 +98,5 @@ def _read_body(loop: Loop, then: Uses, wanted: frozenset[Variable]) -> tuple[Ass
             read[variable] = False
         else:
             kept.append(inner)
-        for ref in refs_in(inner.value):
-            read[ref.variable] = True
+        read.update(dict.fromkeys(variables_in(inner.value), True))
     return tuple(reversed(kept))
