@@ -107,6 +107,18 @@ def test_one_number_is_for_all() -> None:
         ("second = -1.0", "second = -1.6", "control.bounds.hub", "excludes the reference, -1.6 rad"),
         ("second = 3.0", "second = 0", "control.weights.tip", "greater than 0"),
         ("second = [-0.1, 0.2]", "second = [0.2, -0.1]", "control.bounds.torque", "increasing"),
+        (
+            "hub = 2.0",
+            "hub = [2.0, 1.0]",
+            "control.weights.hub",
+            "of several motors one by each name (got [2.0, 1.0])",
+        ),
+        (
+            "{ first = 0.5, second = -1.0 }",
+            "[0.5, -1.0]",
+            "control.reference",
+            "{ shoulder = 2.5, elbow = 1.5 }",
+        ),
         ("hub = 2.0", 'hub = "two"', "control.weights.hub", "must be a number"),
         ("[control.bounds]", "delay = 1.0\n[control.bounds]", "control.weights.delay", "is not a key"),
         (
