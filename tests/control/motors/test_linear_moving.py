@@ -25,6 +25,7 @@ BOUNDED = {
     "control.delay": 0.03,
     "control.bounds.torque_rate": {"shoulder": 10.0, "elbow": 1.0},
     "control.bounds.hub_rate": 4.0,
+    "control.bounds.hub": None,
 }
 FELT = {"control.sensors.accelerometer": {"elbow": 0.02}, "control.sensors.strain": 0.002}
 DAQP = 1e-9
