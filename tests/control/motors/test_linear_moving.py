@@ -66,12 +66,17 @@ def pair(request: pytest.FixtureRequest, two: Bench) -> tuple[Bench, EmittedCont
 
 @pytest.mark.compiler
 def test_what_is_told_makes_the_torques_of_python(pair: tuple[Bench, EmittedController, LinearMpc]) -> None:
-    """Steps, a way told sample by sample and left to itself, payloads; encoders lost meanwhile; what is refused."""
+    """From where the model is not good: a way told sample by sample and left to itself, steps, payloads.
+
+    Encoders are lost meanwhile.
+    """
     bench, emitted, python = pair
     for each in (emitted, python):
         each.reset()
     problem = bench.problem
     plant, random = Plant(bench.scene, problem, CONDITIONS[1], seed=4), np.random.default_rng(7)
+    start = rest_with(plant.scene, np.array([0.3, 0.9]), "here")
+    plant.kernel.initialise(initial_angle=start.angles, inputs=plant.motors.torques(start.goal.torque))
     course, taken, far = course_of(bench, np.array([0.6, -0.9]), 60), 0, 0
     aims = {40: [0.9, -0.8], 44: [0.92, -0.82], 58: FAR, 96: problem.reference}
     payloads = {6: 0.35, 12: 0.0, 57: 0.28, 112: 0.3}
