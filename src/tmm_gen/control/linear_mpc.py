@@ -89,8 +89,8 @@ class LinearMpc(ModelBased):
         -------
         Status
             ``OK``; ``NOT_FINITE``: one is not a number; ``INFEASIBLE``: the motors could not hold the arm there, or it
-            is more than a hundred turns from where the arm starts, where no encoder is believed. What is not OK leaves the
-            former reference.
+            is more than a hundred turns from where the arm starts, where no encoder is believed. What is not OK leaves
+            the former reference.
 
         Raises
         ------
