@@ -26,8 +26,6 @@ Array = NDArray[np.float64]
 
 POSES = 64
 """In which stability is tried; and as many again within what seems to be the reach of the target's gains."""
-ROOM = 0.8
-"""How far these gains are used, of how far they are stable."""
 _NEARER = 8
 """How often their reach may shrink."""
 _SLOWER = 8
@@ -93,7 +91,7 @@ def far_gain(model: StepModel, linear: LinearModel, stationary: KalmanFilter) ->
         if not any(bad):
             break
         reach = float(np.max(np.abs(near - target)[bad, 1:], axis=1).min())
-    within = np.full(count, ROOM * reach)
+    within = np.full(count, reach)
     within[0] = np.inf
     for gain in _rigid_gains(model, stationary):
         if all(tried.is_stable(each, gain) for each in maps):
