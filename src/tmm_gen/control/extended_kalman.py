@@ -47,7 +47,11 @@ class NonlinearFilter:
 
     def reset(self) -> None:
         """Start from the scene's initial motion."""
-        self.estimate = np.append(self.model.initial(), self._unknown)
+        self.begin(self.model.initial())
+
+    def begin(self, state: Array) -> None:
+        """Start from another state, (s,), with nothing unknown."""
+        self.estimate = np.append(state, self._unknown)
 
     def turn(self, angle: Array) -> None:
         """Turn hubs by angles, (m,), rad, with all they carry."""

@@ -179,14 +179,29 @@ class Movable(ModelBased):
             self.model, self._poses = model, poses
             assert self.linear.lift.payload is not None
             self.estimator.carry(model, payload - self.linear.lift.payload)
+            if self._fresh:
+                self._begin_at_rest()
         return status
+
+    def _begin_at_rest(self) -> None:
+        """Start from rest with what is carried: nothing has been measured yet."""
+        still, size = np.zeros((3, self.problem.count)), self.model.size
+        still[0] = self.estimator.home
+        found = pose_in(self.model, still, Pose(self.estimator.estimate[:size], self._past[-1]))
+        if found is not None and self._holds(found):
+            self.estimator.begin(found.state)
+            self._past[:] = found.torque
+
+    def _holds(self, pose: Pose) -> bool:
+        """Return whether motors can hold the arm in a pose, within the bounds in force."""
+        low, high = self.problem.torque
+        return bool(np.all((pose.torque >= low) & (pose.torque <= high)))
 
     def _rest_in(self, still: Pose | None) -> Status:
         """Aim at rest in a pose in the end, if there is such and the motors can hold it."""
         if still is None:
             return Status.NOT_FINITE
-        low, high = self.problem.torque
-        if not np.all((still.torque >= low) & (still.torque <= high)):
+        if not self._holds(still):
             return Status.INFEASIBLE
         tip, _, hub, _ = np.split(self.rows @ still.state, 4)
         if not np.all(self.limits.is_place(hub)):

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
@@ -19,6 +20,7 @@ from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.kalman import present_sensors
 from tmm_gen.control.plane_frame import PlaneFrame
 from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.target import rest_with
 from tmm_gen.control.walls import Wall
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.native import EmittedController
@@ -252,6 +254,23 @@ def test_bounds_and_payload_told_at_run_time_are_those_of_python(
         torque = follow_both(emitted, python, seen)
         assert np.all((torque >= low - 1e-12) & (torque <= high + 1e-12)), k
         plant.advance(torque)
+
+
+def test_told_before_its_first_sample_an_arm_rests_with_what_it_carries(two: Bench) -> None:
+    """Sent to where it stands, it is held there by the torques that this takes, in Python and in C."""
+    start = two.links.start_hub
+    held = rest_with(two.scene.replace(**{"body.payload.mass": 0.05}), start, "here").goal.torque
+    name, files = emit_controller(two, "rti-zero")
+    seen = np.append(start, 4 * [np.nan])
+    for controller in (
+        compiled(two, name, files),
+        RealTimeIteration(two.step, two.links, two.inertia, zero_order=True),
+    ):
+        controller.reset()
+        assert controller.aim(start) is Status.OK
+        assert controller.carry(0.05) is Status.OK
+        for _ in range(5):
+            assert_allclose(controller.command(seen).torque, held, atol=1e-6)
 
 
 def test_encoders_that_come_and_go_are_those_of_python(two: Bench) -> None:
