@@ -259,7 +259,8 @@ def test_bounds_and_payload_told_at_run_time_are_those_of_python(
 def test_told_before_its_first_sample_an_arm_rests_with_what_it_carries(two: Bench) -> None:
     """Sent to where it stands, it is held there by the torques that this takes, in Python and in C."""
     start = two.links.start_hub
-    held = rest_with(two.scene.replace(**{"body.payload.mass": 0.05}), start, "here").goal.torque
+    held = rest_with(two.step.carrying(0.05).scene, start, "here").goal.torque
+    assert np.all(np.abs(two.links.start_torque) > 1.5 * np.abs(held))
     name, files = emit_controller(two, "rti-zero")
     seen = np.append(start, 4 * [np.nan])
     for controller in (
@@ -270,7 +271,8 @@ def test_told_before_its_first_sample_an_arm_rests_with_what_it_carries(two: Ben
         assert controller.aim(start) is Status.OK
         assert controller.carry(0.05) is Status.OK
         for _ in range(5):
-            assert_allclose(controller.command(seen).torque, held, atol=1e-6)
+            # the cost to go is of another payload, and trades a little torque
+            assert_allclose(controller.command(seen).torque, held, rtol=0.01)
 
 
 def test_encoders_that_come_and_go_are_those_of_python(two: Bench) -> None:
