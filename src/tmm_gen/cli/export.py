@@ -38,32 +38,50 @@ _SUFFIX = {"fmu": ".fmu", "mjcf": ".xml", "urdf": ".urdf"}
     help="File to write, by default NAME with the ending of its kind; for acados a folder, NAME_discrete_model.",
 )
 @click.option("--fmi", type=click.Choice(["2", "3"]), help="Version of FMI; by default 2.")
+@click.option(
+    "--controller",
+    metavar="NAME",
+    help="With --to fmu: a unit of this controller of the scene's [control], such as rti-zero, not of the arm.",
+)
 @click.option("--cc", default="gcc", show_default=True, help="Compiler of the unit's binary.")
 @force_option
 @click.option("--json", "json_mode", is_flag=True, help="One JSON object instead of a report.")
 def export(
-    scene: Path, to: str, out: Path | None, fmi: str | None, cc: str, force: bool, json_mode: bool
+    scene: Path,
+    to: str,
+    out: Path | None,
+    fmi: str | None,
+    controller: str | None,
+    cc: str,
+    force: bool,
+    json_mode: bool,
 ) -> None:
     """Write SCENE for another tool.
 
     `--to fmu`: a functional mock-up unit for co-simulation, FMI 2.0 or 3.0, with sources and a binary for this
-    machine, validated by FMPy. `--to mjcf`: a model for MuJoCo. `--to urdf`: of an arm in space what URDF can hold;
-    the rest is told. `--to acados`: what a scene's [control] predicts with, in C, with first and second derivatives.
+    machine, validated by FMPy; with `--controller` of a controller instead. `--to mjcf`: a model for MuJoCo.
+    `--to urdf`: of an arm in space what URDF can hold; the rest is told. `--to acados`: what a scene's [control]
+    predicts with, in C, with first and second derivatives.
     """
     claim((out,), (scene,))
     if fmi is not None and to != "fmu":
         raise UserError(f"--fmi {fmi}: is for --to fmu only. Leave it out.")
+    if controller is not None and to != "fmu":
+        raise UserError(f"--controller {controller}: is for --to fmu only. Leave it out.")
     if force and to != _FOLDER:
         raise UserError("--force: is for --to acados only. Leave it out: a former result is replaced.")
     chosen = changed_scene(scene)
     if to == _FOLDER:
         _acados(chosen, out, force, json_mode)
         return
-    target = out or Path(f"{chosen.name}{_SUFFIX[to]}")
+    stem = f"{chosen.name}_{controller.replace('-', '_')}" if controller else chosen.name
+    target = out or Path(f"{stem}{_SUFFIX[to]}")
     if target.suffix.lower() != _SUFFIX[to]:
         raise UserError(f"--out {target}: must end in {_SUFFIX[to]}, or the other tool will not know it.")
     with progress(f"exporting {chosen.name}"):
-        if to == "fmu":
+        if controller is not None:
+            facts, report = _controller(chosen, controller, target, fmi or "2", cc)
+        elif to == "fmu":
             facts, report = _fmu(chosen, target, fmi or "2", cc)
         else:
             facts, report = (_mjcf if to == "mjcf" else _urdf)(chosen, target)
@@ -118,6 +136,31 @@ def _fmu(scene: Scene, target: Path, fmi: str, cc: str) -> tuple[dict[str, objec
     report = [
         f"FMI {fmi}.0 for co-simulation, {len(content)} bytes, validated by FMPy",
         f"communication steps are multiples of {step:g} s",
+    ]
+    return facts, report
+
+
+def _controller(
+    scene: Scene, controller: str, target: Path, fmi: str, cc: str
+) -> tuple[dict[str, object], list[str]]:
+    """Write a unit of a controller; return what JSON and what a person is told."""
+    from tmm_gen.control.bench import Bench
+    from tmm_gen.onboard.unit import controller_unit
+
+    bench = Bench.of(scene)
+    content = controller_unit(bench, controller, 3 if fmi == "3" else 2, cc)
+    write_outputs({target: content})
+    step = bench.problem.sample_time
+    facts: dict[str, object] = {
+        "controller": controller,
+        "fmi": f"{fmi}.0",
+        "step": step,
+        "bytes": len(content),
+        "real": scene.emit.real,
+    }
+    report = [
+        f"{controller} as FMI {fmi}.0 for co-simulation, {len(content)} bytes, validated by FMPy",
+        f"samples every {step:g} s; communication steps of that size, or parts of it that end there",
     ]
     return facts, report
 
