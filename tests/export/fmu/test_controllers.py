@@ -17,16 +17,18 @@ from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.kalman import present_sensors
 from tmm_gen.export.fmu import FmiVersion
-from tmm_gen.native.compiler import FLAGS
+from tmm_gen.export.fmu.headers import fmi_headers
+from tmm_gen.native.compiler import FLAGS, compile_library
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.native import STATUSES, EmittedController
-from tmm_gen.onboard.unit import controller_unit
+from tmm_gen.onboard.unit import controller_content, controller_unit
 from tmm_gen.scene import load_scene
 
 SCENES = Path(__file__).resolve().parents[3] / "scenes"
 T = 0.02
 NAMES = ("shoulder", "elbow")
 UNITS: list[tuple[str, FmiVersion]] = [("rti-zero", 3), ("mpc-modes", 2)]
+VERSIONS: tuple[FmiVersion, ...] = (2, 3)
 
 pytestmark = pytest.mark.compiler
 
@@ -173,6 +175,18 @@ def test_steps_and_numbers_that_are_refused(
     unit.step(T, T)
     assert np.array_equal(torques(unit), first)
     unit.unit.freeFMUstate(saved)
+
+
+@pytest.mark.parametrize("real", ["float64", "float32"])
+def test_sources_are_free_of_warnings(real: str, bench: Bench) -> None:
+    """What answers the functions of FMI, in both number types and both versions."""
+    chosen = Bench.of(bench.scene.replace(**{"emit.real": real}))
+    content = controller_content(chosen, "mpc-modes")
+    flags = ("-O1", "-Wall", "-Wextra", "-Wconversion", "-Wdouble-promotion", "-Wshadow", "-Werror")
+    for version in VERSIONS:
+        sources = {**fmi_headers(version), **content.filled(version)[0]}
+        own = {k: text for k, text in sources.items() if k.endswith(".h") or k.startswith("fmi-")}
+        compile_library(own, flags=flags)
 
 
 def test_by_the_command_line(
