@@ -27,7 +27,7 @@ class Budget:
 
     instructions: int = 2_050_000
     reset: int = 6_620_000
-    flash: int = 39_000
+    flash: int = 39_500
     ram: int = 112_400
     stack: int = 5_320
 
