@@ -62,8 +62,8 @@ def run(
 
 def test_exports_and_the_python_that_reads_them(checkout: Path, run: Callable[[list[str]], str]) -> None:
     exports = [line for line in commands(EXPORT) if line.startswith("tmm-gen export")]
-    assert len(exports) == 3
-    assert run(exports).count("wrote ") == 3
+    assert len(exports) == 4
+    assert run(exports).count("wrote ") == 4
     snippets = re.findall(r"```python\n(.*?)```", EXPORT.read_text(), re.DOTALL)
     assert len(snippets) == 2
     for snippet in snippets:

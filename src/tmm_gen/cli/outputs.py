@@ -12,7 +12,7 @@ import click
 from tmm_gen.errors import UserError
 from tmm_gen.files import require_target, write_tree_whole
 
-__all__ = ["OutputFile", "OutputFolder", "claim", "force_option", "require_new", "write_outputs"]
+__all__ = ["OutputFile", "OutputFolder", "OutputOf", "claim", "force_option", "require_new", "write_outputs"]
 
 force_option = click.option("--force", is_flag=True, help="Replace what is there under that name.")
 """The option of commands that write scenes or sources; gives the argument ``force``."""
@@ -57,6 +57,27 @@ class OutputFolder(click.Path):
         folder = Path(os.fsdecode(super().convert(value, param, ctx)))
         _require_place(folder / "any", f"{param.opts[-1] if param else 'folder'} {folder}")
         return folder
+
+
+class OutputOf(click.Path):
+    """A folder to write into for some values of another option, which is read before it, and a file else.
+
+    Parameters
+    ----------
+    option
+        The other option's argument.
+    folders
+        Values that write a folder.
+    """
+
+    def __init__(self, option: str, folders: tuple[str, ...]) -> None:
+        super().__init__(path_type=Path)
+        self._option, self._folders = option, folders
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:
+        """Return the path, or say on one line why nothing can be written there."""
+        folder = ctx is not None and ctx.params.get(self._option) in self._folders
+        return (OutputFolder() if folder else OutputFile()).convert(value, param, ctx)
 
 
 def _require_place(target: Path, where: str) -> None:

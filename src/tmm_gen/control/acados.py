@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from tmm_gen.control.acados_code import acados_name
 from tmm_gen.control.step_model import StepModel
 
 
@@ -37,7 +38,7 @@ def acados_fields(model: StepModel, continuous: bool = False) -> dict[str, Any]:
     names = list(model.motors.inputs)
     u = ca.vertcat(*(ca.SX.sym(name) for name in names))
     common: dict[str, Any] = {
-        "name": f"{model.scene.name}_{'continuous' if continuous else 'discrete'}",
+        "name": acados_name(model, continuous),
         "u": u,
         "p": ca.SX.sym("p", 0),
         "u_labels": names,

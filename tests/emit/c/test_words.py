@@ -14,7 +14,7 @@ from tmm_gen.c_language.words import taken
 from tmm_gen.emit.c import emit_c
 from tmm_gen.emit.c.box import box_of
 from tmm_gen.emit.c.kernel import Kernel
-from tmm_gen.export.fmu.unit import _sources
+from tmm_gen.export.fmu.unit import unit_content
 from tmm_gen.program.build import build_program
 from tmm_gen.resources import templates_dir
 from tmm_gen.scene import Scene, load_scene
@@ -71,7 +71,7 @@ def sources(scene: Scene) -> dict[str, str]:
         and box is None
         and kernel.circle is None
     ):
-        files |= _sources(program, scene.replace(**{"emit.sensitivities": None}), 2)[0]
+        files |= unit_content(program, scene.replace(**{"emit.sensitivities": None}), 2).filled(2)[0]
     return files
 
 

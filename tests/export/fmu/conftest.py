@@ -146,16 +146,14 @@ def unit_of(
 
 
 @pytest.fixture
-def instance(
-    unit_of: Callable[[Scene, FmiVersion], Path], tmp_path: Path
-) -> Iterator[Callable[[Scene, FmiVersion], Instance]]:
-    """Make instances of a scene's unit."""
+def opened(tmp_path: Path) -> Iterator[Callable[[Path], Instance]]:
+    """Make instances of unit files."""
     made: list[Instance] = []
 
-    def make(scene: Scene, version: FmiVersion) -> Instance:
-        folder = tmp_path / f"{scene.digest[:16]}-{version}"
+    def make(file: Path) -> Instance:
+        folder = tmp_path / file.parent.name
         if not folder.exists():
-            fmpy.extract(str(unit_of(scene, version)), str(folder))
+            fmpy.extract(str(file), str(folder))
         made.append(Instance(folder))
         return made[-1]
 
@@ -163,3 +161,11 @@ def instance(
     for each in made:
         each.unit.freeInstance()
     shutil.rmtree(tmp_path, ignore_errors=True)
+
+
+@pytest.fixture
+def instance(
+    unit_of: Callable[[Scene, FmiVersion], Path], opened: Callable[[Path], Instance]
+) -> Callable[[Scene, FmiVersion], Instance]:
+    """Make instances of a scene's unit."""
+    return lambda scene, version: opened(unit_of(scene, version))

@@ -25,8 +25,8 @@ def description2(identity: Identity, variables: Sequence[FmuVariable]) -> str:
         "CoSimulation",
         {
             **identity.abilities("FMUstate"),
-            # multiples of the internal step only, which FMI 2.0 cannot say
-            "canHandleVariableCommunicationStepSize": "false",
+            # else multiples of the internal step only, which FMI 2.0 cannot say
+            "canHandleVariableCommunicationStepSize": "true" if identity.held else "false",
             "canNotUseMemoryManagementFunctions": "true",
         },
     )

@@ -20,15 +20,12 @@ def description3(identity: Identity, variables: Sequence[FmuVariable]) -> str:
         In the order of their value references from 1; 0 is time.
     """
     root = identity.root("3.0", "instantiationToken")
-    Xml.SubElement(
-        root,
-        "CoSimulation",
-        {
-            **identity.abilities("FMUState"),
-            "canHandleVariableCommunicationStepSize": "false",  # multiples of this only:
-            "fixedInternalStepSize": number(identity.step),
-        },
-    )
+    multiples = {
+        "canHandleVariableCommunicationStepSize": "false",  # multiples of this only:
+        "fixedInternalStepSize": number(identity.step),
+    }
+    steps = {"canHandleVariableCommunicationStepSize": "true"} if identity.held else multiples
+    Xml.SubElement(root, "CoSimulation", {**identity.abilities("FMUState"), **steps})
     add_units(root, {v.unit for v in variables if v.unit != "1"} | {"s"})
     logs = Xml.SubElement(root, "LogCategories")
     Xml.SubElement(logs, "Category", name="logStatusError", description="what went wrong")

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Literal
 from xml.etree import ElementTree as Xml
 
-from tmm_gen.scene import Scene
 from tmm_gen.version import __version__
 
 FmiVersion = Literal[2, 3]
@@ -21,13 +20,15 @@ class Identity:
     Parameters
     ----------
     name, title : str
-        Of the scene.
+        Of what is exported.
     token : str
         Changes with anything in the unit; the binary refuses another one.
     step : float
         Internal step, s.
     sources : tuple of str
         Names of the C files to compile.
+    held : bool
+        Whether communication steps are of any size up to the internal step, not whole multiples of it.
     """
 
     name: str
@@ -35,11 +36,7 @@ class Identity:
     token: str
     step: float
     sources: tuple[str, ...]
-
-    @classmethod
-    def of(cls, scene: Scene, token: str, sources: tuple[str, ...]) -> Identity:
-        """Return the identity of a scene's unit."""
-        return cls(scene.name, scene.title, token, scene.integrator.step, sources)
+    held: bool = False
 
     def root(self, version: str, token_attribute: str) -> Xml.Element:
         """Return the root of the description; without a date, so that it is the same every time."""
