@@ -1,0 +1,112 @@
+"""The loop in real time beside an emitted controller: it compiles as it lies, and moves the arm that Python moves.
+
+How late it wakes is the machine's: nothing is said of that but that it waits at all.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tmm_gen.closed_loop.space_plant import plant_of
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.command import Controller
+from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.motors import motors_of
+from tmm_gen.control.space_motors import space_motors
+from tmm_gen.onboard.emit import emit_controller
+from tmm_gen.scene import Scene, load_scene
+
+pytestmark = pytest.mark.compiler
+
+STRICT = "-std=c99 -O1 -Wall -Wextra -Wpedantic example/loop.c *.c plant/*.c daqp/*.c -lm -o loop"
+MID_MOTION = 0.26
+"""s."""
+
+
+@pytest.fixture(scope="module")
+def arms(swing: Scene, repository: Path) -> dict[str, Bench]:
+    """Arms whose sensors do not rustle: on a hub, late by a sample and a half; in a plane; in space, also late."""
+    hub = {"control.sensors.accelerometer": None, "control.delay": 0.03}
+    two = {"beam.upper.links": 2, "beam.forearm.links": 2, "control.horizon": 12, "control.substeps": 2}
+    space = {"beam.upper.links": 1, "beam.forearm.links": 1, "control.horizon": 20, "control.delay": 0.005}
+    return {
+        "hub": Bench.of(swing.replace(**hub)),
+        "plane": Bench.of(load_scene(repository / "scenes" / "elbow.toml").replace(**two)),
+        "space": Bench.of(load_scene(repository / "examples" / "space" / "reach3.toml").replace(**space)),
+    }
+
+
+def tips_in_python(bench: Bench, controller: Controller, seconds: float) -> np.ndarray:
+    """Return the tips' angles after the same loop in Python, as controllers reckon them, rad."""
+    plant = plant_of(bench.scene, bench.problem, CONDITIONS[0])
+    samples = round(seconds / bench.problem.sample_time)
+    controller.reset()
+    if not bench.problem.motors.on_hub:
+        controller.aim(0.5 * (bench.problem.start + bench.problem.reference))
+    for sample in range(samples):
+        torque = controller.command(plant.measured()).torque
+        if sample == samples // 2 and not bench.problem.motors.on_hub:
+            controller.aim(bench.problem.reference)
+        controller.prepare()
+        plant.advance(torque)
+    flat = plant.scene.spatial is None
+    motors = motors_of(plant.scene) if flat else space_motors(plant.scene, bench.problem.reference)
+    state = plant.kernel.state
+    return motors.tip @ np.array([*([state["hub_angle"]] if plant.scene.hub else []), *state["angle"]])
+
+
+@pytest.mark.parametrize(
+    ("which", "kind", "real"),
+    [("hub", "mpc-modes", "float64"), ("plane", "rti-zero", "float32"), ("space", "mpc-links", "float64")],
+)
+def test_the_loop_moves_the_arm_as_python_does(
+    which: str,
+    kind: str,
+    real: str,
+    arms: dict[str, Bench],
+    in_python: Callable[[Bench, str], Controller],
+    tmp_path: Path,
+) -> None:
+    bench = arms[which]
+    for path, text in emit_controller(bench, kind, real, real_time=True)[1].items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(text)
+
+    def shell(command: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(command, cwd=tmp_path, shell=True, capture_output=True, text=True, check=False)
+
+    done = shell(f"gcc {STRICT}")
+    assert (done.returncode, done.stderr) == (0, "")
+
+    run = shell("./loop 3 free")
+    assert (run.returncode, run.stderr) == (0, ""), run.stdout
+    samples = round(3.0 / bench.problem.sample_time)
+    assert f"\nstatuses: OK {samples}\n" in run.stdout
+    assert "deadline" not in run.stdout
+
+    run = shell(f"./loop {MID_MOTION} free")
+    assert run.returncode == 1, run.stdout
+    shown = [float(angle) for angle in re.findall(r"^tip of .*: (\S+) rad", run.stdout, re.MULTILINE)]
+    expected = tips_in_python(bench, in_python(bench, kind), MID_MOTION)
+    assert np.max(np.abs(expected - bench.problem.start)) > 0.05
+    assert shown == pytest.approx(expected, abs=1e-4 if real == "float64" else 1e-3)
+
+    begin = time.monotonic()
+    run = shell("./loop 0.3")
+    assert time.monotonic() - begin >= 0.3
+    assert run.returncode & 1, run.stdout
+    times = re.findall(
+        r"^(woken late|measurement to torque|whole sample) +(\S+) +(\S+) +(\S+)$", run.stdout, re.MULTILINE
+    )
+    assert len(times) == 3
+    assert all(0.0 <= float(median) <= float(most) <= float(longest) for _, median, most, longest in times)
+    assert re.search(r"^deadlines missed: \d+, by more than a sample: \d+$", run.stdout, re.MULTILINE)
+
+    assert shell("./loop 0").returncode == shell("./loop 1 fast").returncode == 4
