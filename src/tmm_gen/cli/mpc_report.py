@@ -143,7 +143,6 @@ def emit(
     table(rows, ["file", Column("bytes", form="d")], json_mode, title=title, more=facts)
     if not json_mode:
         click.echo(f"call {name}_command() once per sample; {folder / (name + '.h')} says how")
-        click.echo(
-            f"try it: cd {shlex.quote(str(folder))} && cc -O2 example/example.c *.c daqp/*.c -lm && ./a.out"
-        )
-        click.echo("in real time: cc -O2 example/loop.c *.c plant/*.c daqp/*.c -lm && ./a.out")
+        place = shlex.quote(str(folder))
+        click.echo(f"try it: cd {place} && cc -O2 example/example.c *.c daqp/*.c -lm && ./a.out")
+        click.echo(f"in real time: cd {place} && cc -O2 example/loop.c *.c plant/*.c daqp/*.c -lm && ./a.out")
