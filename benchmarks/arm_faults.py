@@ -7,10 +7,10 @@ jump; bounds of torques are crossed, not finite or too narrow to hold the arm; p
 told wrongly. Arms in space stand at angles that suit the three joints of examples/space/wall3.toml; linear controllers
 are tried without walls. Then sensors are true again, and the controller is told the scene's bounds and reference and
 the payload there is. Required is OK within one second, an arm that arrives (0.02 rad) within four, nothing but OK from
-then on or from one second on, and at all times a torque within the bounds in force. Bounds that leave a motor no other
-torque than its largest throw an arm without gears many turns away: where rates are bounded, or a linear controller
-brings the arm near at rates of its own, it is to arrive within four seconds more than it takes for this way at these.
-hypothesis draws the cases; exits with 1 if one fails.
+then on or from one second on, and at all times a torque within the bounds in force. Encoders that lie for a second
+throw an arm many turns away: it is to arrive within four seconds more than it takes for this way as fast as its joints
+may turn, where that is bounded, or a linear controller brings it near at rates of its own, and as fast as its motors
+could turn it if it were stiff. hypothesis draws the cases; exits with 1 if one fails.
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ def started(kernel: NativeKernel, real: Any) -> tuple[Any, Any, list[dict[str, f
     program = kernel.program
     first, models, states, ends = program.parameters[0], [], [], []
     for arm in range(DIFFERENT):
-        kernel.prepare({first.name: np.multiply(first.default, 1.0 + 1e-3 * arm)})  # type: ignore[arg-type]
+        kernel.prepare({first.name: np.asarray(first.default, dtype=float) * (1.0 + 1e-3 * arm)})
         kernel.initialise()
         models.append(np.concatenate([np.ravel(kernel.model[v.name]) for v in program.model]))
         states.append(np.concatenate([np.ravel(kernel.state[v.name]) for v in program.state]))

@@ -36,7 +36,7 @@ from tmm_gen.control.command import Controller
 from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.kalman import present_sensors
 from tmm_gen.control.pd import PdController
-from tmm_gen.control.reach import Frame
+from tmm_gen.control.plane_frame import PlaneFrame
 from tmm_gen.control.target import rest_with
 from tmm_gen.control.way import Way, shaped_way
 from tmm_gen.control.window import Window
@@ -156,7 +156,7 @@ def loop(bench: Bench, controller: Controller, row: Row, objects: Sequence[float
         timed=False,
         course=Unfolding(course.angles, tuple(last for _, last in stops[:-1])),
     )
-    places, frame = end_places(plant, ran), Frame.of(plant.scene, plant.scene.parts[-1].name)
+    places, frame = end_places(plant, ran), PlaneFrame.of(plant.scene, plant.scene.parts[-1].name)
     trembles, off = [], []
     for first, last in stops:
         late = places[(first + last) // 2 : last + 1]

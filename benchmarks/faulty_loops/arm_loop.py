@@ -11,13 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 from support.carrying import CarryingPlant, Loads, carrying_plant, payload_of
 
-from faulty_loops.arm_cases import ArmCase, Trouble
+from faulty_loops.arm_cases import HEAVIEST, ArmCase, Trouble
 from faulty_loops.cases import ADDED, INVALID, STUCK, VALUE
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.kalman import present_sensors
 from tmm_gen.control.linear_mpc import APPROACH_TIME, LinearMpc
+from tmm_gen.control.motors import motors_of
 from tmm_gen.control.target import rest_with
 from tmm_gen.onboard.emit import LINEAR, emit_controller
 from tmm_gen.onboard.native import FLAGS, EmittedController
@@ -25,7 +27,7 @@ from tmm_gen.onboard.native import FLAGS, EmittedController
 Array = NDArray[np.float64]
 
 AFTER = 200
-"""Calm samples after the last trouble, and as many more as the arm takes for its way as fast as it may turn."""
+"""Calm samples after the last trouble, and as many more as the arm takes for its way as fast as it can and may turn."""
 BRAKING = 50
 """Calm samples in which it is to be brought to a stop: one that flies on is not waited for."""
 ARRIVED = 0.02
@@ -44,7 +46,8 @@ class ArmOutcome:
         Up to the last that is not OK, and up to the last at which a joint is more than `ARRIVED` off.
     way : int
         Samples in which the joints come back from where they were farthest off while the arm was brought to a stop, at
-        the rates that they may turn at, or linear controllers bring them near: it may have been thrown many turns away.
+        the rates that they may turn at, or linear controllers bring them near, and with the torques that there are:
+        it may have been thrown many turns away.
     outside : int
         Torques that are not finite, or out of the bounds that were in force.
     refused : int
@@ -97,6 +100,11 @@ class ArmLoop:
         self.payload = payload_of(bench.scene)
         self.number = np.float64 if real == "float64" else np.float32
         self.widest = tuple(self.number(each) for each in bench.problem.torque)
+        heaviest = carrying_plant(bench.scene, self.problem, Loads(((0, self.payload),)), seed=0).laden(
+            HEAVIEST * self.payload
+        )
+        largest = np.min(np.abs(self.problem.torque), axis=0)
+        self.quickest = largest / motors_of(heaviest).inertia(arm_of(heaviest).mass())
 
     def run(self, case: ArmCase) -> ArmOutcome:
         """Run a case."""
@@ -128,8 +136,9 @@ class ArmLoop:
             if not np.max(off) <= ARRIVED:
                 found.last_off = since
             if since <= BRAKING:
-                needed = np.max(off / self.fastest) / self.problem.sample_time
-                found.way = max(found.way, math.ceil(needed))
+                # rigid and stretched out with the most it carries, a motor alone: half the way faster, half slower
+                needed = np.maximum(off / self.fastest, 2.0 * np.sqrt(off / self.quickest))
+                found.way = max(found.way, math.ceil(np.max(needed) / self.problem.sample_time))
         return found
 
     def _sample(

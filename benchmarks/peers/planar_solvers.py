@@ -82,10 +82,8 @@ class Cvodes:
             "max_num_steps": 1_000_000,
         }
         equations = {"x": x, "ode": self._slope(x)}
-        with (
-            tempfile.TemporaryDirectory() as folder,
-            contextlib.chdir(folder),
-        ):  # CasADi leaves its texts there
+        # CasADi leaves its texts there
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
             return ca.integrator("solver", "cvodes", equations, 0.0, self._times, options)
 
 

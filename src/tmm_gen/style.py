@@ -57,6 +57,15 @@ _STYLE: dict[str, Any] = {
 }
 
 
+_ROUNDS = 4
+"""How often titles are broken anew, as each break moves others."""
+_SHORT = 30
+"""Characters that have room in any picture."""
+_ROOM = 0.4
+"""Share of a picture's width that a title beside a field has, less its margins."""
+_EDGE = 0.1
+"""Left free beside a title, inches."""
+
 _RAISED = str.maketrans("-0123456789.", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹·")
 
 
@@ -172,15 +181,6 @@ def _break(text: Text, room: float) -> bool:
     most = max(_SHORT // 2, int(longest * room / width) - 1)
     text.set_text(textwrap.fill(" ".join(text.get_text().split()), most))
     return True
-
-
-_ROUNDS = 4
-_SHORT = 30
-"""Characters that have room in any picture."""
-_ROOM = 0.4
-"""Share of a picture's width that a title beside a field has, less its margins."""
-_EDGE = 0.1
-"""Left free beside a title, inches."""
 
 
 def _write_powers_plainly(made: Figure) -> None:

@@ -11,17 +11,18 @@ from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.divergence import DivergedError
 from tmm_gen.simulate.run import simulate
+from tmm_gen.simulate.stepping import Backend
 
 pytestmark = pytest.mark.compiler
 
 
 @pytest.mark.parametrize("backend", ["numpy", "c"])
 def test_the_frozen_step_is_told_by_time_link_cause_and_remedy(
-    backend: str, falling: Callable[..., Scene]
+    backend: Backend, falling: Callable[..., Scene]
 ) -> None:
     scene = falling(5, **{"model.linearisation": "frozen"})
     with pytest.raises(DivergedError) as told:
-        simulate(scene, {}, 1.0, backend)  # type: ignore[arg-type]
+        simulate(scene, {}, 1.0, backend)
     for words in ("t = 0.0", "link 1 of 5", "'frozen'", "--set model.linearisation=newton"):
         assert words in str(told.value)
 

@@ -62,3 +62,20 @@ def test_prune_keeps_what_is_wanted_and_what_feeds_it() -> None:
     whole = Routine("step", "", (Section("", (Loop(Order.OUTWARD, 0, 4, body),)),))
     kept = prune(whole, frozenset({ANGLE}))
     assert {a.target.variable.name for a in kept.assignments()} == {"guess", "angle"}
+
+
+def test_stations_that_are_alike_are_rewritten_once() -> None:
+    """With the same factor and the same value, whatever is set; values of another hoister are its own."""
+    value = STEP.ref * RATE.entry(0) / 2 + ANGLE.entry(0)
+    asked = []
+
+    class Counting(Hoister):
+        def _rewrite(self, value: sp.Expr) -> sp.Expr:
+            asked.append(value)
+            return super()._rewrite(value)
+
+    lines = tuple(Assign(GUESS.entry(k), value) for k in range(4))
+    found = [Counting().hoist(Routine("step", "", (Section("", lines),))) for _ in range(2)]
+    assert asked == [value, value]
+    assert len({*found[0].values()}) == 1
+    assert found[0] == found[1]

@@ -107,6 +107,18 @@ def test_one_number_is_for_all() -> None:
         ("second = -1.0", "second = -1.6", "control.bounds.hub", "excludes the reference, -1.6 rad"),
         ("second = 3.0", "second = 0", "control.weights.tip", "greater than 0"),
         ("second = [-0.1, 0.2]", "second = [0.2, -0.1]", "control.bounds.torque", "increasing"),
+        (
+            "hub = 2.0",
+            "hub = [2.0, 1.0]",
+            "control.weights.hub",
+            "of several motors one by each name (got [2.0, 1.0])",
+        ),
+        (
+            "{ first = 0.5, second = -1.0 }",
+            "[0.5, -1.0]",
+            "control.reference",
+            "{ shoulder = 2.5, elbow = 1.5 }",
+        ),
         ("hub = 2.0", 'hub = "two"', "control.weights.hub", "must be a number"),
         ("[control.bounds]", "delay = 1.0\n[control.bounds]", "control.weights.delay", "is not a key"),
         (
@@ -173,3 +185,31 @@ def test_names_of_motors_mean_nothing_on_a_hub(planar: str) -> None:
     text = planar + "[control]\nreference = 1.0\n[control.bounds]\ntorque = { hub = 3.0 }\n"
     with pytest.raises(SceneError, match="is told by names of motors, and this arm has its hub alone"):
         parse_scene(text)
+
+
+def test_what_is_not_said_counts_in_the_largest_torque_of_each_motor(planar: str) -> None:
+    """The same arm with motors ten times as strong takes what makes the same loop; a hub has plain numbers."""
+    plain = "[control]\nreference = 0.5\n[control.bounds]\ntorque = { first = 0.3, second = [-0.1, 0.2] }\n"
+    strong = plain.replace("0.3", "3.0").replace("[-0.1, 0.2]", "[-1.0, 2.0]")
+    weak, ten = (control_problem(parse_scene(ARM + text)) for text in (plain, strong))
+    for name, power in (("torque", 1), ("disturbance", 1), ("rate", 0)):
+        one, other = (getattr(problem.estimator, name) for problem in (weak, ten))
+        assert other == pytest.approx(10.0**power * one)
+        assert np.all(one > 0.0)
+    assert weak.estimator.torque == pytest.approx([0.05 * 0.3, 0.05 * 0.2])
+    for name in ("torque", "torque_step"):
+        one, other = (getattr(problem.weights, name) for problem in (weak, ten))
+        assert other == pytest.approx(0.01 * one)
+        assert one[1] / one[0] == pytest.approx((0.3 / 0.2) ** 2)
+    told = plain + "[control.weights]\ntorque = 7.0\n[control.estimator]\nrate = 0.0\n"
+    said = control_problem(parse_scene(ARM + told))
+    assert said.weights.torque.tolist() == [7.0, 7.0]
+    assert said.estimator.rate.tolist() == [0.0, 0.0]
+    hub = control_problem(
+        parse_scene(planar + "[control]\nreference = 1.0\n[control.bounds]\ntorque = 30.0\n")
+    )
+    assert (hub.weights.torque.item(), hub.estimator.disturbance.item(), hub.estimator.rate.item()) == (
+        1e-3,
+        1e-2,
+        0,
+    )

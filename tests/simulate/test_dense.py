@@ -16,6 +16,7 @@ from tmm_gen.simulate.metrics import convergence_slope
 from tmm_gen.simulate.rows import row_instants
 from tmm_gen.simulate.run import simulate
 from tmm_gen.simulate.stages import StagePolynomial
+from tmm_gen.simulate.stepping import Backend
 
 STEPS = (0.2, 0.1, 0.05)
 _OMEGA = np.array([2.0, 3.0])
@@ -166,17 +167,17 @@ def swing(integrator: str, step: float) -> Scene:
 
 @pytest.mark.parametrize("backend", ["numpy", pytest.param("c", marks=pytest.mark.compiler)])
 @pytest.mark.parametrize("integrator", ["sdirk4", "gauss2"])
-def test_rows_at_any_instants_lie_on_the_motion(integrator: str, backend: str) -> None:
+def test_rows_at_any_instants_lie_on_the_motion(integrator: str, backend: Backend) -> None:
     """Rows of long steps, at instants that are none of their multiples, beside the ends of short steps."""
     load = {"drive": Constant(0.3)}
     long, short = swing(integrator, 0.02), swing(integrator, 0.0025)
-    run = simulate(long, load, 0.3, backend, judge=False, every=0.0075, trace=True)  # type: ignore[arg-type]
-    fine = simulate(short, load, 0.3, backend, judge=False)  # type: ignore[arg-type]
+    run = simulate(long, load, 0.3, backend, judge=False, every=0.0075, trace=True)
+    fine = simulate(short, load, 0.3, backend, judge=False)
     assert run.steps == 15
     np.testing.assert_allclose(run.time, 0.0075 * np.arange(41), atol=1e-15)
     assert run.trace is not None
     assert len(run.trace.angle) == len(run.time)
-    own = simulate(long, load, 0.3, backend, judge=False)  # type: ignore[arg-type]
+    own = simulate(long, load, 0.3, backend, judge=False)
     for name, values in fine.outputs.items():
         size = np.ptp(values)
         at_steps = np.max(np.abs(own.outputs[name] - values[::8])) / size

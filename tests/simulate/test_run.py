@@ -14,6 +14,7 @@ from tmm_gen.reference.reference import exact_response
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.divergence import DivergedError, watch
 from tmm_gen.simulate.run import number_of_steps, simulate
+from tmm_gen.simulate.stepping import Backend
 
 LOADS: dict[str, Signal] = {
     "outer": Sine(1.5, 5.0, 0.4),
@@ -41,13 +42,13 @@ def test_both_backends_read_inputs_alike(name: str, chain: Callable[[str], Scene
 @pytest.mark.compiler
 @pytest.mark.parametrize("backend", ["numpy", "c"])
 def test_a_smooth_input_keeps_the_order_of_a_method_with_stages(
-    backend: str, chain: Callable[[str], Scene]
+    backend: Backend, chain: Callable[[str], Scene]
 ) -> None:
     load: dict[str, Signal] = {"outer": LOADS["outer"]}
     errors = []
     for step in (0.02, 0.01):
         scene = chain("clamp").replace(**{"integrator.name": "sdirk4", "integrator.step": step})
-        found = simulate(scene, load, 1.0, backend)  # type: ignore[arg-type]
+        found = simulate(scene, load, 1.0, backend)
         errors.append(np.abs(found.outputs["tip"] - exact_response(scene, load, found.time)["tip"]).max())
     assert errors[0] / errors[1] == pytest.approx(16.0, rel=0.1)
 
@@ -106,13 +107,13 @@ def test_fastest_mode_of_equal_stations(example: Callable[[str], Scene]) -> None
     ],
 )  # fmt: skip
 def test_divergence_names_time_station_cause_and_remedy(
-    changes: dict[str, object], step: float, said: str, backend: str, example: Callable[[str], Scene]
+    changes: dict[str, object], step: float, said: str, backend: Backend, example: Callable[[str], Scene]
 ) -> None:
     scene = example("thesis10").replace(**{"integrator.step": step, **changes})
     with pytest.raises(
         DivergedError, match=r"at t = [\d.]+ s the angle of station \d+ has reached"
     ) as caught:
-        simulate(scene, {"tip_torque": Constant(1.0)}, 400.0, backend)  # type: ignore[arg-type]
+        simulate(scene, {"tip_torque": Constant(1.0)}, 400.0, backend)
     assert said in str(caught.value)
     assert "integrator.name=newmark" in str(caught.value)
     assert caught.value.exit_code == 1

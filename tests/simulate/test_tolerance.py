@@ -22,7 +22,7 @@ from tmm_gen.simulate.adaptive.march import Aim, march
 from tmm_gen.simulate.adaptive.passes import ToleranceError
 from tmm_gen.simulate.run import simulate
 from tmm_gen.simulate.stages import StagePolynomial, stage_polynomial
-from tmm_gen.simulate.stepping import Stepper
+from tmm_gen.simulate.stepping import Backend, Stepper
 
 CHAIN = """
 name = "pair"
@@ -108,9 +108,9 @@ def bent() -> Scene:
     return parse_scene(ARM)
 
 
-def true_error(scene: Scene, load: Signal, backend: str = "numpy") -> tuple[float, int]:
+def true_error(scene: Scene, load: Signal, backend: Backend = "numpy") -> tuple[float, int]:
     """Return the error of a chain's run over all rows, as a share of its motion, and the steps it took."""
-    run = simulate(scene, {"push": load}, UNTIL, backend)  # type: ignore[arg-type]
+    run = simulate(scene, {"push": load}, UNTIL, backend)
     exact = exact_response(scene, {"push": load}, run.time)
     off = max(float(np.max(np.abs(run.outputs[name] - values))) for name, values in exact.items())
     assert run.accuracy is not None

@@ -34,10 +34,8 @@ def show_space_rest(
     """Find and show the equilibria of an arm in space."""
     import numpy as np
 
-    with (
-        progress(f"balancing {scene.name}") as advance,
-        np.errstate(all="ignore"),
-    ):  # what overflows is refused
+    # what overflows is refused
+    with progress(f"balancing {scene.name}") as advance, np.errstate(all="ignore"):
         from tmm_gen.modal.near import FROM_START, NEAR
         from tmm_gen.modal.space.equilibria import equilibria_in_space
         from tmm_gen.modal.space.situation import arm_numbers

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from tmm_gen.closed_loop.loop import Loop
 from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
+from tmm_gen.control.part_frame import end_of, part_frame
 from tmm_gen.control.plant_scene import PLANT_LINKS
 from tmm_gen.control.prediction import fine_scene
-from tmm_gen.control.reach import Frame
 from tmm_gen.control.target import rest_with
 from tmm_gen.control.walls import Wall
 from tmm_gen.scene.trajectory import Keep
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Tracking:
-    """Of one closed loop, at its samples; of the outer end of the arm's last part.
+    """Of one closed loop, at its samples; of the outer end of the arm.
 
     Parameters
     ----------
@@ -56,15 +56,15 @@ def tracking_figures(loop: Loop, plant: Plant, bench: Bench) -> Tracking:
     places = end_places(plant, loop)
     off = np.linalg.norm(places - wanted_places(bench, len(places)), axis=1)
     shaken = [
-        float(np.hypot(*np.ptp(places[(first + last) // 2 : last + 1], axis=0)))
+        float(np.linalg.norm(np.ptp(places[(first + last) // 2 : last + 1], axis=0)))
         for first, last in course.stops(len(places))
     ]
     return Tracking(float(np.sqrt(np.mean(off**2))), float(np.max(off)), max(shaken, default=None))
 
 
 def end_places(plant: Plant, loop: Loop, name: str | None = None) -> Array:
-    """Return where a part's outer end was at each sample, (samples, 2), m; by default that of the last part."""
-    frame = Frame.of(plant.scene, name or plant.scene.parts[-1].name)
+    """Return where a part's outer end was at each sample, (samples, 2 or 3), m; by default the arm's."""
+    frame = part_frame(plant.scene, name or end_of(plant.scene))
     return frame.place(np.array([state["angle"] for state in loop.states]))
 
 
@@ -76,10 +76,10 @@ def nearest_to_walls(loop: Loop, plant: Plant, keeps: Sequence[Keep]) -> float |
 
 
 def wanted_places(bench: Bench, samples: int) -> Array:
-    """Return where the end of the arm would rest with its joints as they are to be, (samples, 2), m."""
+    """Return where the end of the arm would rest with its joints as they are to be, (samples, 2 or 3), m."""
     assert bench.course is not None
     fine = fine_scene(bench.scene, PLANT_LINKS)
     angles = bench.course.at(np.arange(samples))
     rows, back = np.unique(angles, axis=0, return_inverse=True)
     rests = np.array([rest_with(fine, row, "control.trajectory").angles for row in rows])
-    return Frame.of(fine, fine.parts[-1].name).place(rests)[back.ravel()]
+    return part_frame(fine, end_of(fine)).place(rests)[back.ravel()]

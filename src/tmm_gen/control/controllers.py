@@ -20,6 +20,7 @@ from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.shaper import Kind, shaper, slowest_vibration
 from tmm_gen.control.walls import keeps_no_walls
 from tmm_gen.control.way import Way, shaped_way, stepped_way
+from tmm_gen.control.where import where
 from tmm_gen.control.window import Window
 from tmm_gen.errors import UserError
 from tmm_gen.scene.control import Baselines
@@ -81,8 +82,8 @@ class ControllerKind:
         if bench.follows and not self.follows:
             others = ", ".join(kind.name for kind in CONTROLLERS if kind.follows)
             raise UserError(
-                f"{bench.scene.source.origin}: the controller '{self.name}' follows no control.trajectory; take one of "
-                f"{others}."
+                f"{where(bench.scene, 'control.trajectory')}: the controller '{self.name}' follows none; "
+                f"take one of {others}."
             )
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.reach import rest_with_frame
 from tmm_gen.control.target import Target, require_within, rest_with
+from tmm_gen.control.where import where
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.curve import through
 from tmm_gen.inputs.given import read_tables
@@ -78,7 +79,7 @@ def _quintics(scene: Scene, problem: ControlProblem, way: Trajectory) -> Iterato
         key = f"control.trajectory.pose[{number}]"
         if pose.angles is not None:
             target = rest_with(scene, np.array(by_names(pose.angles, problem.motors.names)), key)
-            require_within(scene, problem, target, key)
+            _require_room(scene, problem, target, key)
         else:
             assert pose.frame is not None
             assert pose.position is not None
@@ -95,14 +96,19 @@ def _quintics(scene: Scene, problem: ControlProblem, way: Trajectory) -> Iterato
 
 def _from_file(scene: Scene, problem: ControlProblem, way: Trajectory, path: Path) -> Course:
     """Return the course that a CSV file tells, by joint angles or by positions of a part."""
-    names = problem.motors.names if way.frame is None else (f"{way.frame}_x", f"{way.frame}_y")
-    tables = [table for table in read_tables(path, names).values() if isinstance(table, Table)]
+    axes = "xy" if scene.spatial is None else "xyz"
+    names = problem.motors.names if way.frame is None else tuple(f"{way.frame}_{axis}" for axis in axes)
+    tables = [
+        table
+        for table in read_tables(path, names, what=f"{where(scene, 'control.trajectory.file')}: ").values()
+        if isinstance(table, Table)
+    ]
     last = float(tables[0].times[-1])
     instants = problem.sample_time * np.arange(int(np.ceil(last / problem.sample_time - 1e-9)) + 1)
     told = np.column_stack([through(table).at(np.minimum(instants, last)) for table in tables])
     if way.frame is None:
         for row in (told[0], told[-1]):
-            require_within(scene, problem, rest_with(scene, row, path.name), path.name)
+            _require_room(scene, problem, rest_with(scene, row, path.name), path.name)
         return Course(told)
     angles, before = np.zeros((len(told), problem.count)), problem.start
     for row, position, now in zip(angles, told, instants, strict=True):
@@ -120,11 +126,17 @@ def _reached(
     if np.max(np.abs(before - problem.start)) == 0.0:
         starts.reverse()
     target = rest_with_frame(scene, frame, position, starts, key)
+    _require_room(scene, problem, target, key)
+    return target
+
+
+def _require_room(scene: Scene, problem: ControlProblem, target: Target, key: str) -> None:
+    """Refuse torques that the motors cannot give, and angles that joints have no room for."""
     require_within(scene, problem, target, key)
     for name, angle, bounds in zip(problem.motors.names, target.goal.hub, problem.hub, strict=True):
         if bounds is not None and not bounds[0] <= angle <= bounds[1]:
+            whose = "control.bounds.hub" if scene.spatial is None else "its limits or control.bounds.hub"
             raise UserError(
-                f"{scene.source.origin}: {key}: the joint of motor '{name}' would be at {angle:.4g} rad, beyond "
-                f"control.bounds.hub, [{bounds[0]:g}, {bounds[1]:g}]. Widen the bounds, or take another position."
+                f"{where(scene, key)}: the joint of motor '{name}' would be at {angle:.4g} rad, beyond "
+                f"{whose}, [{bounds[0]:g}, {bounds[1]:g}]. Widen the bounds, or take another position."
             )
-    return target

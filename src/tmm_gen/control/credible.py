@@ -32,8 +32,9 @@ JUMP = 1.0
 """By how much the hub may turn in a sample, rad; and an encoder be off where the estimate has not proved itself."""
 PROOF = 0.5
 """An estimate proves itself by samples in a row in which no encoder is further off than this share of what it may."""
-FARTHEST = 64.0
-"""How far from where the scene starts a hub may be, rad: ten turns."""
+FARTHEST = 640.0
+"""How far from where the scene starts a hub may be, rad: a hundred turns. Without gears false encoders may throw one
+twenty turns away in a second, and it is to be braked and brought back from there."""
 PATIENCE = 5
 """After so many samples in a row that went wrong the estimate starts anew; after as many that went well it has proved
 itself."""

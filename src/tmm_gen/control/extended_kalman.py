@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.credible import Credible
 from tmm_gen.control.delay import Pair
+from tmm_gen.control.far_gain import FarGain, far_gain
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.links import rest_state
@@ -17,6 +18,9 @@ Array = NDArray[np.float64]
 
 class NonlinearFilter:
     """Predicts by the generated step, corrects at the stationary gain of the target: cheap, and right near it.
+
+    Where that would do harm, far from the target, hubs are corrected as if nothing bent
+    (:mod:`tmm_gen.control.far_gain`).
 
     Parameters
     ----------
@@ -35,7 +39,11 @@ class NonlinearFilter:
         self.home, self.start, self.length = linear.start_hub, linear.start_torque, linear.length
         self._more = 0.0
         self._angles, self._rates = model.places("angle"), model.places("rate")
+        self.far = self._far_gain()
         self.reset()
+
+    def _far_gain(self) -> FarGain | None:
+        return far_gain(self.model, self._linear, self._stationary)
 
     def reset(self) -> None:
         """Start from the scene's initial motion."""
@@ -74,10 +82,26 @@ class NonlinearFilter:
         seen[self._biased] -= self.estimate[self.model.size + self._linear.count :]
         return seen
 
+    def _is_far(self) -> bool:
+        return self.far is not None and self.far.is_far(self.hubs()[0])
+
+    def taken_in(self, sensors: tuple[int, ...]) -> tuple[int, ...]:
+        """Return which of the sensors behind the encoders are taken in where these can be; -1 says: none, it is far."""
+        return (-1,) if self._is_far() else sensors
+
     def correct(self, surprise: Array, sensors: tuple[int, ...], most: Array) -> None:
         """Take in what some sensors are off, (3 m,); disturbances stay within ``most`` N m, (m,), either way."""
-        self.estimate = self.estimate + self._stationary.gain_of(sensors) @ surprise[list(sensors)]
+        self.estimate = self.estimate + self._gain_of(sensors) @ surprise[list(sensors)]
         self._limit(most)
+
+    def _gain_of(self, sensors: tuple[int, ...]) -> Array:
+        """Return the gain where the arm is, (s + m + b, those)."""
+        if self.far is None or not self._is_far():
+            return self._stationary.gain_of(sensors)
+        every, inferred = self._stationary.inferred(sensors)
+        return np.asarray(
+            self.far.gain[:, [self.sensors.index(sensor) for sensor in every]] @ inferred, float
+        )
 
     def _limit(self, most: Array) -> None:
         _, disturbance = self._parts(self.estimate)
@@ -131,6 +155,9 @@ class ExtendedKalmanFilter(NonlinearFilter):
 
     def __init__(self, model: StepModel, linear: LinearModel) -> None:
         super().__init__(model, linear)
+
+    def _far_gain(self) -> FarGain | None:
+        return None  # its own gain is that of where the arm is
 
     def reset(self) -> None:
         """Start from the scene's initial motion."""

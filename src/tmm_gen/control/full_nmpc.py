@@ -21,6 +21,7 @@ from tmm_gen.control.links import rest_state
 from tmm_gen.control.model_based import ModelBased
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.control.terminal import end_rows
+from tmm_gen.control.where import where
 from tmm_gen.errors import UserError
 
 Array = NDArray[np.float64]
@@ -79,8 +80,8 @@ class FullNmpc(ModelBased):
         self.model, self.linear, self.solver = model, linear, solver
         if np.any(np.isfinite(model.problem.hub_rate)):
             raise UserError(
-                f"{model.scene.source.origin}: the controller 'nmpc' keeps no control.bounds.hub_rate; take 'rti', or "
-                "remove the key."
+                f"{where(model.scene, 'control.bounds.hub_rate')}: the controller 'nmpc' keeps it "
+                "not; take 'rti', or remove the key."
             )
         self._guess: Array | None = None
         super().__init__(model.problem, ExtendedKalmanFilter(model, linear), model.delay, inertia)

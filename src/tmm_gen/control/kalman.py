@@ -118,6 +118,10 @@ class KalmanFilter:
         seen[self.biased] -= self.estimate[model.size + count :]
         return np.asarray(seen, float)
 
+    def taken_in(self, sensors: tuple[int, ...]) -> tuple[int, ...]:
+        """Return which of the sensors behind the encoders are taken in where these can be: all of them."""
+        return sensors
+
     def correct(self, surprise: Array, sensors: tuple[int, ...], most: Array) -> None:
         """Take in what some sensors are off, (3 m,); disturbances stay within ``most`` N m, (m,), either way."""
         self.estimate = self.estimate + self.gain_of(sensors) @ surprise[list(sensors)]
@@ -150,11 +154,16 @@ class KalmanFilter:
 
     def _without(self, sensors: tuple[int, ...]) -> Array:
         """Return the gain for the first sample in which some encoders show nothing, (s + m + b, those that do)."""
-        every = tuple(sorted({*range(self.model.count), *sensors}))
+        every, inferred = self.inferred(sensors)
+        return np.asarray(self.gain_of(every) @ inferred, float)
+
+    def inferred(self, sensors: tuple[int, ...]) -> tuple[tuple[int, ...], Array]:
+        """Return some sensors with all encoders, and what these are off by what the former are off, (e, those)."""
+        every: tuple[int, ...] = tuple(sorted({*range(self.model.count), *sensors}))
         read, places = self._places(every), [every.index(sensor) for sensor in sensors]
         spread = self.spread[np.ix_(read, read)]
-        inferred = np.linalg.solve(spread[np.ix_(places, places)], spread[places]).T
-        return np.asarray(self.gain_of(every) @ inferred, float)
+        found = np.linalg.solve(spread[np.ix_(places, places)], spread[places]).T
+        return every, np.asarray(found, float)
 
     def advance(self, torques: Pair, end: Array) -> None:
         """Predict a sample with the torques that act in it, and those at its end, N m."""

@@ -21,6 +21,9 @@ Array = NDArray[np.float64]
 _NOTHING = 1e-12
 """Torque relative to the largest that is rounding."""
 
+_SAME = 1e-9
+"""Change of moments of inertia relative to the largest that is rounding."""
+
 
 @dataclass(frozen=True, eq=False)
 class Lift:
@@ -81,11 +84,23 @@ class Lift:
         """
         assert self.heavier is not None
         assert self.payload is not None
-        own = _inertia(self.arm, hub)
-        share = _inertia(self.heavier, hub) / own - 1.0  # for a kilogram
+        own, heavy = (np.diag(_inertias(arm, hub)) for arm in (self.arm, self.heavier))
+        share = heavy / own - 1.0  # for a kilogram
         largest = float(np.max(share))
         least, most = self.payload + (lighter - 1.0) / largest, self.payload + (heavier - 1.0) / largest
         return max(0.0, least), most
+
+    def free(self, hub: Array) -> NDArray[np.bool_]:
+        """Return which motors, (m,), may turn as far as they like: nothing but weight sees it, from hubs somewhere.
+
+        The first does, that turns the whole arm. What inertia depends on is periodic of second order.
+        """
+        own, turns = _inertias(self.arm, hub), 2.0 * np.pi * np.arange(1, 5) / 5.0
+        changed = [
+            max(float(np.max(np.abs(_inertias(self.arm, hub + turn * each) - own))) for turn in turns)
+            for each in np.eye(self.motors)
+        ]
+        return np.array(changed) <= _SAME * float(np.max(np.abs(own)))
 
     def weight(self, hub: Array, more: float = 0.0) -> Array:
         """Return the torques that hold up the rigid arm with hubs somewhere, (m,), rad, and some kg more, (m,), N m."""
@@ -101,8 +116,10 @@ class Lift:
         return self.beside(goal) + self.holding.weight(hub)
 
 
-def _inertia(arm: ControlledArm, hub: Array) -> Array:
-    """Return what each motor of a rigid arm turns alone, (m,), by its own torque, kg m^2."""
+def _inertias(arm: ControlledArm, hub: Array) -> Array:
+    """Return the mass matrix of a rigid arm by its motors' torques, (m, m), kg m^2."""
     count = len(hub)
     hubs, still = np.tile(hub, (count, 1)), np.zeros((count, count))
-    return np.diag(arm.rigid_torques(hubs, still, np.eye(count)) - arm.rigid_torques(hubs, still, still))
+    return np.asarray(
+        arm.rigid_torques(hubs, still, np.eye(count)) - arm.rigid_torques(hubs, still, still), float
+    )

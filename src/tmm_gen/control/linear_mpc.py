@@ -42,7 +42,7 @@ class LinearMpc(ModelBased):
 
     Where motors are parts by name the reference may move and the payload change: the model is the same about any
     place where the arm rests, and it is asked to bring the arm so far only as it does from the scene's start to its
-    target. Where the arm itself is further from that target, or carries so much less or more that it is another one,
+    target. Where the arm is bent otherwise by more than that, or carries so much less or more that it is another one,
     hubs are brought to the reference by the safe law with rates that are wanted: by what a motor feels itself, whatever
     the arm beyond it does.
 
@@ -89,8 +89,8 @@ class LinearMpc(ModelBased):
         -------
         Status
             ``OK``; ``NOT_FINITE``: one is not a number; ``INFEASIBLE``: the motors could not hold the arm there, or it
-            is more than ten turns from where the arm starts, where no encoder is believed. What is not OK leaves the
-            former reference.
+            is more than a hundred turns from where the arm starts, where no encoder is believed. What is not OK leaves
+            the former reference.
 
         Raises
         ------
@@ -167,6 +167,11 @@ class LinearMpc(ModelBased):
         return Places.of(self.model, still, torque)
 
     @cached_property
+    def range(self) -> Array:
+        """How far from the scene's target hubs may be for the model to be good, (m,), rad; infinite if free."""
+        return np.where(self.model.lift.free(self.model.goal.hub), np.inf, self.reach)
+
+    @cached_property
     def payloads(self) -> tuple[float, float]:
         """The least and the largest payload that the model is taken to be good for, kg."""
         return self.model.lift.payloads(self.model.goal.hub, LIGHTER, HEAVIER)
@@ -184,7 +189,7 @@ class LinearMpc(ModelBased):
         self._stand_near()
         hub, rate = self._seen
         angles = self._shown_angles(hub)
-        if self._fits and not np.any(np.abs(angles - self.model.goal.hub) > self.reach):
+        if self._fits and np.all(np.abs(angles - self.model.goal.hub) <= self.range):
             return super()._solved(last)
         self._program.forget()
         return Command(self._safe(hub, rate, last, self._towards(angles)), Status.OK)

@@ -11,6 +11,7 @@ from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.model_based import ModelBased
 from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.unsaid import REGULATOR_TORQUE, Told
 from tmm_gen.scene.control import RegulatorWeights
 from tmm_gen.scene.each import by_names
 
@@ -38,10 +39,11 @@ class Regulator(ModelBased):
         from scipy.linalg import solve_discrete_are  # slow to import
 
         self.model = model
-        hub, tip_rate, hub_rate, torque = (
+        hub, tip_rate, hub_rate = (
             np.array(by_names(value, problem.motors.names))
-            for value in (weights.hub, weights.tip_rate, weights.hub_rate, weights.torque)
+            for value in (weights.hub, weights.tip_rate, weights.hub_rate)
         )
+        torque = Told.by(problem.motors, problem.torque).of(weights.torque, REGULATOR_TORQUE)
         cost = model.weighed(np.ones(model.count), hub, tip_rate, hub_rate)
         a, b = model.transition, model.drive
         price = np.diag(torque)

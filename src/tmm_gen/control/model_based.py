@@ -51,6 +51,10 @@ class Estimator(Protocol):
         """Return how far a measurement is off what is expected, (3 m,)."""
         ...
 
+    def taken_in(self, sensors: tuple[int, ...]) -> tuple[int, ...]:
+        """Return what tells how sensors behind the encoders are taken in: as before where it is the same."""
+        ...
+
     def correct(self, surprise: Array, sensors: tuple[int, ...], most: Array) -> None:
         """Take in what some sensors are off, (3 m,); disturbances stay within ``most`` N m, (m,), either way."""
 
@@ -97,6 +101,7 @@ class ModelBased(ABC):
         self._past = np.tile(self.estimator.start, (self.delay.memory + 1, 1))
         self._hub, self._fresh, self._wrong = np.full(self.problem.count, np.nan), True, 0
         self._foreseen = PATIENCE  # the scene says how the arm starts
+        self._moved = np.full(self.problem.count, np.nan)
         self._due = False
         self._window: Window | None = None
         self._passed = 0
@@ -197,18 +202,24 @@ class ModelBased(ABC):
 
     def _command(self, measured: Array) -> Command:
         last, hub = self._past[-1], measured[: self.problem.count]
-        moved = np.where(self.limits.is_move(self._hub, hub), hub - self._hub, np.nan)
-        rate = moved / self.problem.sample_time
-        command = self._decided(measured, rate, last)
+        moved = hub - self._hub
+        steady = self.limits.is_move(self._hub, hub)
+        command = self._decided(measured, self._rate(moved, steady), last)
         torque = command.torque
         if not command.status.optimal:
-            torque = self._safe(hub, rate, last)
-        self._hub = hub
+            # a hub that whirls moves too far in a sample, but like in the one before: it is to be braked all the more
+            whirls = self.limits.is_move(self._moved, moved)
+            torque = self._safe(hub, self._rate(moved, steady | whirls), last)
+        self._hub, self._moved = hub, moved
         command = Command(self.problem.allowed(torque, last), command.status, command.iterations)
         self._past = np.vstack([self._past[1:], command.torque])
         self._due = True
         self._passed += 1
         return command
+
+    def _rate(self, moved: Array, believed: Flags) -> Array:
+        """Return what hubs have moved by as rates, (m,), rad/s; NaN where that is not to be believed."""
+        return np.where(believed, moved, np.nan) / self.problem.sample_time
 
     def _safe(self, hub: Array, rate: Array, last: Array, wanted: Array | float = 0.0) -> Array:
         """Return the torques of the safe law, for rates that are wanted, (m,), rad/s.
@@ -246,8 +257,8 @@ class ModelBased(ABC):
         elif placed:
             self._foreseen = 0
         if encoders == list(np.flatnonzero(there)):  # no encoder is off
+            self._read = self.estimator.taken_in(believed[len(encoders) :])
             self.estimator.correct(surprise, believed, self.limits.disturbance)
-            self._read = believed[len(encoders) :]
         elif self._wrong >= PATIENCE:  # and an encoder jumps, so that nobody knows where the arm is
             return Command(none, Status.MEASUREMENT)
         command = self._solved(last)

@@ -80,7 +80,7 @@ class Movable(ModelBased):
         -------
         Status
             ``OK``; ``NOT_FINITE``: there is no rest; ``INFEASIBLE``: the motors could not hold it, or it is more than
-            ten turns from where the arm starts, where no encoder is believed.
+            a hundred turns from where the arm starts, where no encoder is believed.
 
         Raises
         ------

@@ -78,6 +78,7 @@ from numpy.typing import NDArray
 from tmm_gen.control.motor_rows import Motors
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.terms import Assumed, Goal, Kind, MotorWeights, Pair
+from tmm_gen.control.unsaid import Told
 from tmm_gen.errors import UserError
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene
@@ -247,9 +248,10 @@ def control_problem(scene: Scene) -> ControlProblem:
         )
     start = motors.prescribed @ np.array([*np.zeros(scene.hub), *scene.initial.angles])
     reference = np.array(by_names(control.reference, names))
-    bounds, assumed = control.bounds, control.estimator
+    bounds = control.bounds
     rate, turning, hub = bounds.torque_rate, bounds.hub_rate, _hub_bounds(scene, control, motors)
     low, high = np.array(by_names(bounds.torque, names)).T
+    told = Told.by(motors, (low, high))
     return ControlProblem(
         horizon=control.horizon,
         sample_time=control.sample_time,
@@ -264,16 +266,9 @@ def control_problem(scene: Scene) -> ControlProblem:
         hub=hub,
         hub_rate=np.array(by_names(math.inf if turning is None else turning, names)),
         tip=tuple(_tip_bound(control, float(way)) for way in reference - start),
-        weights=MotorWeights.of(control.weights, names),
+        weights=MotorWeights.of(control.weights, told),
         sensors=control.sensors,
-        estimator=Assumed(
-            encoder=np.array(by_names(assumed.encoder, names)),
-            torque=np.array(by_names(assumed.torque, names)),
-            disturbance=np.array(by_names(assumed.disturbance, names)),
-            rate=np.array(by_names(assumed.rate, names)),
-            accelerometer=np.array(by_names(assumed.accelerometer, names)),
-            strain=np.array(by_names(assumed.strain, names)),
-        ),
+        estimator=Assumed.of(control.estimator, told),
         keeps=control.keep,
     )
 

@@ -1,18 +1,20 @@
-"""Where a part of a planar arm is, and the rest of the arm that brings it somewhere."""
+"""The rest of an arm that brings a part of it somewhere."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.arms import arm_of
 from tmm_gen.control.motors import motors_of
+from tmm_gen.control.part_frame import Frame, part_frame
+from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.target import Target, rest_with
 from tmm_gen.control.terms import Goal
+from tmm_gen.control.where import where
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
+from tmm_gen.scene.spatial.reach import way_to
 
 Array = NDArray[np.float64]
 
@@ -21,35 +23,6 @@ _LARGEST = 0.3
 """Largest change of an angle in an iteration, rad: farther the arm is no longer what it was linearised to be."""
 _REACHED = 1e-10
 """m."""
-
-
-@dataclass(frozen=True, eq=False)
-class Frame:
-    """A part's outer end.
-
-    Parameters
-    ----------
-    lengths : array, (d,)
-        Of the links from the base to it, zero beyond, m.
-    """
-
-    lengths: Array
-
-    @classmethod
-    def of(cls, scene: Scene, name: str) -> Frame:
-        """Return the frame of a beam, link or body of an arm by parts without branches."""
-        last = next(part.last for part in scene.parts if part.name == name)
-        lengths = np.array([link.length for link in scene.links])
-        lengths[last:] = 0.0
-        return cls(lengths)
-
-    def place(self, angles: Array) -> Array:
-        """Return where it is, (2,) or (k, 2), m, for the arm's angles, (d,) or (k, d), rad."""
-        return np.stack([np.cos(angles) @ self.lengths, np.sin(angles) @ self.lengths], axis=-1)
-
-    def slopes(self, angles: Array) -> Array:
-        """Return the derivatives of its place by the angles, (2, d) or (k, 2, d)."""
-        return np.stack([-np.sin(angles) * self.lengths, np.cos(angles) * self.lengths], axis=-2)
 
 
 def rest_with_frame(scene: Scene, name: str, position: Array, starts: list[Array], key: str) -> Target:
@@ -61,10 +34,10 @@ def rest_with_frame(scene: Scene, name: str, position: Array, starts: list[Array
     Parameters
     ----------
     scene : Scene
-        Of an arm by parts.
+        Of an arm whose motors are parts by name.
     name : str
         Of the part.
-    position : array, (2,)
+    position : array, (2,), in space (3,)
         m.
     starts : list of array, (m,)
         Joint angles to begin from, rad; the first that leads there decides which way the arm bends.
@@ -76,20 +49,30 @@ def rest_with_frame(scene: Scene, name: str, position: Array, starts: list[Array
     UserError
         If it is out of reach.
     """
-    frame, nearest = Frame.of(scene, name), np.inf
+    frame, nearest = part_frame(scene, name), np.inf
     for start in starts:
         found, left = _searched(scene, frame, position, start, key)
         if found is not None:
             return found
         nearest = min(nearest, left)
-    x, y = position
+    told = ", ".join(f"{each:g}" for each in position)
+    raise UserError(
+        f"{where(scene, key)}: '{name}' cannot rest at [{told}] m: it came no nearer than "
+        f"{nearest:.3g} m. {_advice(scene, frame)}"
+    )
+
+
+def _advice(scene: Scene, frame: Frame) -> str:
+    """Return where positions within reach are."""
+    if isinstance(frame, SpaceFrame):
+        return (
+            f"The way along the arm to it is {way_to(frame.arm, frame.frame):g} m: take a position well within that, "
+            "which the joints on the way can bring it to."
+        )
     carried = [frame.lengths[motor.place : motor.end].sum() for motor in motors_of(scene).each]
     outer = sum(carried)
     inner = max(0.0, 2.0 * max(carried) - outer)
-    raise UserError(
-        f"{scene.source.origin}: {key}: '{name}' cannot rest at [{x:g}, {y:g}] m: it came no nearer than "
-        f"{nearest:.3g} m. Take a position well between {inner:g} and {outer:g} m from the base."
-    )
+    return f"Take a position well between {inner:g} and {outer:g} m from the base."
 
 
 def _searched(
@@ -100,7 +83,7 @@ def _searched(
     size, count = len(motors.lengths), motors.count
     begun = rest_with(scene, start, key)
     angles, torque = begun.angles, begun.goal.torque
-    slope = np.zeros((size + 2, size + count))
+    slope = np.zeros((size + len(position), size + count))
     slope[:size, size:], nearest = -motors.drive, np.inf
     for _ in range(_ITERATIONS):
         held = arm.held(angles, motors.torques(torque))
@@ -108,8 +91,9 @@ def _searched(
         slope[:size, :size], slope[size:, :size] = held.matrices.stiffness, frame.slopes(angles)
         change = np.linalg.lstsq(slope, np.concatenate([held.unbalanced, off]), rcond=None)[0]
         largest = float(np.max(np.abs(change[:size])))
-        nearest = min(nearest, float(np.hypot(*off)))
-        if np.hypot(*off) < _REACHED and largest < _REACHED:
+        distance = float(np.linalg.norm(off))
+        nearest = min(nearest, distance)
+        if distance < _REACHED and largest < _REACHED:
             return Target(angles, Goal(motors.tip @ angles, motors.hub @ angles, torque), held.matrices), 0.0
         share = min(1.0, _LARGEST / largest)
         angles, torque = angles + share * change[:size], torque + share * change[size:]

@@ -110,9 +110,8 @@ class SmallMotion:
         accelerations, d = list(self._accelerations), len(self._rates)
         a, b = np.zeros((2 * d, 2 * d)), np.zeros((2 * d, len(acting)))
         a[:d, d:] = np.eye(d)
-        if (
-            self._turn
-        ):  # the way of a small turn s about axes that turn themselves: s' = omega + s x omega / 2
+        # the way of a small turn s about axes that turn themselves: s' = omega + s x omega / 2
+        if self._turn:
             a[d - 3 : d, d - 3 : d] = -0.5 * _crossing(after[rates[-3:]])
         a[d:] = by_state[accelerations] @ spread
         b[d:] = by_inputs[accelerations]

@@ -13,6 +13,7 @@ from tmm_gen.control.arms import arm_of
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.terms import Goal
+from tmm_gen.control.where import where
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 
@@ -127,7 +128,7 @@ def rest_with(scene: Scene, reference: Array, key: str) -> Target:
             )
             return Target(angles, Goal(tip, hub, torque), held.matrices)
     raise UserError(
-        f"{scene.source.origin}: the arm finds no rest with its {_what(scene)} at {_told(reference)} rad. "
+        f"{where(scene, key)}: the arm finds no rest with its {_what(scene)} at {_told(reference)} rad. "
         f"Check gravity, stiffness and {key}."
     )
 
@@ -147,7 +148,7 @@ def require_within(scene: Scene, problem: ControlProblem, target: Target, key: s
             whose = "" if motors.on_hub else f" of motor '{name}'"
             angles = target.goal.tip if motors.on_hub else target.goal.hub
             raise UserError(
-                f"{scene.source.origin}: holding the {_what(scene)} at {_told(angles)} rad needs {torque:.4g} N m"
+                f"{where(scene, key)}: holding the {_what(scene)} at {_told(angles)} rad needs {torque:.4g} N m"
                 f"{whose}, beyond the bounds [{low[k]:g}, {high[k]:g}]. Widen control.bounds.torque, or set another "
                 f"{key}."
             )

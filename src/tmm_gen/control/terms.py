@@ -9,7 +9,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.scene.control import Weights
+from tmm_gen.control.unsaid import DISTURBANCE, RATE, TORQUE, TORQUE_STEP, UNKNOWN_TORQUE, Told
+from tmm_gen.scene.control import Estimator, Weights
 from tmm_gen.scene.each import by_names
 
 Array = NDArray[np.float64]
@@ -31,9 +32,15 @@ class MotorWeights:
     hub_rate_bound: Array
 
     @classmethod
-    def of(cls, weights: Weights, names: tuple[str, ...]) -> MotorWeights:
+    def of(cls, weights: Weights, told: Told) -> MotorWeights:
         """Return the weights of some motors."""
-        return cls(*(np.array(by_names(getattr(weights, item.name), names)) for item in fields(cls)))
+        unsaid = {"torque": TORQUE, "torque_step": TORQUE_STEP}
+        found = {
+            item.name: np.array(by_names(getattr(weights, item.name), told.names))
+            for item in fields(cls)
+            if item.name not in unsaid
+        }
+        return cls(**found, **{name: told.of(getattr(weights, name), of) for name, of in unsaid.items()})
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +59,16 @@ class Assumed:
     rate: Array
     accelerometer: Array
     strain: Array
+
+    @classmethod
+    def of(cls, estimator: Estimator, told: Told) -> Assumed:
+        """Return what is assumed of some motors."""
+        unsaid = {"torque": UNKNOWN_TORQUE, "disturbance": DISTURBANCE, "rate": RATE}
+        found = {
+            name: np.array(by_names(getattr(estimator, name), told.names))
+            for name in ("encoder", "accelerometer", "strain")
+        }
+        return cls(**found, **{name: told.of(getattr(estimator, name), of) for name, of in unsaid.items()})
 
 
 @dataclass(frozen=True, eq=False)

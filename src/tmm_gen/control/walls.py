@@ -8,30 +8,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.condensed import BEYOND
+from tmm_gen.control.part_frame import Frame, part_frame
 from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.reach import Frame
-from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.target import rest_with
+from tmm_gen.control.where import where
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
-from tmm_gen.scene.locate import nearest_line
-from tmm_gen.scene.problem import Path
 from tmm_gen.scene.trajectory import Keep
 
 Array = NDArray[np.float64]
 
 
-def where(scene: Scene, *more: int) -> str:
-    """Return where a scene tells of its walls, or of one of them, from 0: file, line and key."""
-    path: Path = ("control", "keep", *more)
-    key = "control.keep" + "".join(f"[{number + 1}]" for number in more)
-    return f"{scene.source.origin}:{nearest_line(scene.source.lines, path)}: {key}"
-
-
 def keeps_no_walls(scene: Scene, controller: str, others: str) -> UserError:
     """Return the error of a controller that knows of none, with the names of others that do."""
+    place = where(scene, "control.keep")
     return UserError(
-        f"{where(scene)}: the controller '{controller}' keeps no walls; take {others}, or remove the table."
+        f"{place}: the controller '{controller}' keeps no walls; take {others}, or remove the table."
     )
 
 
@@ -48,11 +40,12 @@ def far_behind(scene: Scene, problem: ControlProblem) -> list[str]:
     if not problem.keeps:
         return []
     angles, found = rest_with(scene, problem.start, "initial.angles").angles, []
-    for number, keep in enumerate(problem.keeps):
+    for number, keep in enumerate(problem.keeps, 1):
         behind = keep.offset + keep.margin - float(Wall.of(scene, keep).along(angles[None])[0])
         if behind > BEYOND:
+            place = where(scene, f"control.keep[{number}]")
             found.append(
-                f"{where(scene, number)}: '{keep.frame}' starts {behind:.3g} m beyond what it is to keep, and what is "
+                f"{place}: '{keep.frame}' starts {behind:.3g} m beyond what it is to keep, and what is "
                 f"more than {BEYOND:g} m beyond is held by no wall until it is back. Set a smaller offset, or other "
                 "initial.angles."
             )
@@ -65,7 +58,7 @@ class Wall:
 
     Parameters
     ----------
-    frame : Frame or SpaceFrame
+    frame : Frame
         Outer end of the part.
     normal : array, (2,) or (3,)
         Of length 1, away from the wall.
@@ -73,19 +66,18 @@ class Wall:
         Of the wall along it, m.
     """
 
-    frame: Frame | SpaceFrame
+    frame: Frame
     normal: Array
     offset: float
 
     @classmethod
     def of(cls, scene: Scene, keep: Keep) -> Wall:
         """Return a wall of a scene, or of one of the same parts in other links."""
-        normal, arm = np.array(keep.normal), scene.spatial
-        frame = Frame.of(scene, keep.frame) if arm is None else SpaceFrame.of(arm, keep.frame)
+        normal = np.array(keep.normal)
         normal /= np.max(
             np.abs(normal)
         )  # of any length: squares of what is very long or short leave the range
-        return cls(frame, normal / np.linalg.norm(normal), keep.offset)
+        return cls(part_frame(scene, keep.frame), normal / np.linalg.norm(normal), keep.offset)
 
     def along(self, angles: Array) -> Array:
         """Return how far the part is along the normal, (k,), m, for angles of the arm, (k, d), rad."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 
 import sympy as sp
@@ -142,12 +142,12 @@ def _station_law(gains: dict[sp.Symbol, float]) -> _Law:
 class _Law:
     """A derived law as numbers; what overflows or divides by zero has grown without bound."""
 
-    def __init__(self, function: object) -> None:
+    def __init__(self, function: Callable[..., Sequence[float]]) -> None:
         self._function = function
 
     def __call__(self, motion: float, torque: float, *parameters: float) -> tuple[float, float]:
         try:
-            motion, torque = self._function(motion, torque, *parameters)  # type: ignore[operator]
+            motion, torque = self._function(motion, torque, *parameters)
         except (OverflowError, ZeroDivisionError):
             return motion, math.inf
         return motion, torque if math.isfinite(torque) else math.inf

@@ -149,7 +149,11 @@ def _once(name: str, found: dict[str, Signal], text: str) -> None:
 
 
 def read_tables(
-    path: Path, names: tuple[str, ...], angles: Collection[str] = (), gaps: bool = False
+    path: Path,
+    names: tuple[str, ...],
+    angles: Collection[str] = (),
+    gaps: bool = False,
+    what: str = "--input: ",
 ) -> dict[str, Signal]:
     """Return columns of a CSV file with a ``time`` column.
 
@@ -163,13 +167,15 @@ def read_tables(
         Those of them whose rate and acceleration may be there too.
     gaps : bool
         Whether an empty cell, or one that says NaN, is a sample that is missing, as in a record; else it is an error.
+    what : str
+        Who asks for it: words before the path where it cannot be opened.
 
     Raises
     ------
     UserError
         Naming the file, the line and what to do.
     """
-    rows = _rows(path)
+    rows = _rows(path, what)
     try:
         _, header = next(rows)
     except StopIteration:
@@ -245,10 +251,10 @@ def _motion(name: str, table: Table, rates: list[float] | None, accelerations: l
     return made
 
 
-def _rows(path: Path) -> Iterator[tuple[int, list[str]]]:
+def _rows(path: Path, what: str) -> Iterator[tuple[int, list[str]]]:
     """Yield the rows that are not blank, each with its line."""
     try:
-        with open_table(path, "--input: ") as file:
+        with open_table(path, what) as file:
             reader = csv.reader(file)
             for row in reader:
                 if any(cell.strip() for cell in row):

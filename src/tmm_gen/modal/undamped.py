@@ -7,6 +7,7 @@ Each comes with a bound of its error from its residual.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -110,11 +111,11 @@ def _lowest(linear: Linear, springs: Resistance, turning: Array, count: int) -> 
         found: Array = angles - turning @ (moved.T @ angles)
         return found
 
-    def operator(function: object) -> object:
+    def operator(function: Callable[[Array], Array]) -> object:
         return LinearOperator((size, size), matvec=function, matmat=function, dtype=float)
 
-    def column(function: object) -> object:
-        return lambda vector: function(np.asarray(vector, float).reshape(size, -1))  # type: ignore[operator]
+    def column(function: Callable[[Array], Array]) -> Callable[[Array], Array]:
+        return lambda vector: function(np.asarray(vector, float).reshape(size, -1))
 
     start = np.random.default_rng(0).standard_normal((size, 1))  # the same each time
     start = softened(parts.weighed(start))[:, 0]

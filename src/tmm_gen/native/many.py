@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -53,8 +53,8 @@ def whole(name: str, value: object) -> int:
         If it is not.
     """
     try:
-        number = operator.index(value)  # type: ignore[arg-type]
-    except TypeError:
+        number = operator.index(value) if isinstance(value, SupportsIndex) else 0
+    except TypeError:  # an array of several
         number = 0
     if number < 1:
         raise ValueError(f"{name} must be a whole number, 1 or more, not {value!r}")

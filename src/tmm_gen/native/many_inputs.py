@@ -66,9 +66,8 @@ def sampled(program: Program, name: str, signal: Signal, steps: int, step: float
         raise ValueError(f"{name} has {values.ndim} dimensions; it may have two: steps and arms")
     if values.ndim == 2 and values.shape[0] != steps:
         raise ValueError(f"{name} has {values.shape[0]} rows for {steps} steps")
-    if any(
-        stride % values.itemsize for stride in values.strides
-    ):  # a field of records: C counts whole numbers
+    # a field of records: C counts whole numbers
+    if any(stride % values.itemsize for stride in values.strides):
         values = values.copy()
     return values.reshape((1,) * (2 - values.ndim) + values.shape)[:, None, :]
 

@@ -10,6 +10,7 @@ from tmm_gen.control.kalman import present_sensors
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.walls import keeps_no_walls
+from tmm_gen.control.where import where
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.example_arm import example_arm
 from tmm_gen.onboard.linear import emit_linear_mpc
@@ -96,7 +97,7 @@ def _require_few(bench: Bench) -> None:
     behind = len(present_sensors(problem)) - problem.count
     if behind > MOST_BEHIND:
         raise UserError(
-            f"{bench.scene.source.origin}: control.sensors: {behind} accelerometers and gauges: a controller in C "
+            f"{where(bench.scene, 'control.sensors')}: {behind} accelerometers and gauges: a controller in C "
             f"reads at most {MOST_BEHIND}, as its filter has a gain for each set of them. Name fewer motors, such as "
             f"`accelerometer = {{ {names[-1]} = 0.1 }}`."
         )
@@ -108,6 +109,6 @@ def _require_digits(bench: Bench, condensed: Condensed, real: str) -> None:
     lost = float(curved[-1] / curved[0] * np.finfo(np.float32).eps)
     if real == "float32" and not lost <= _MOST_LOST:
         raise UserError(
-            f"{bench.scene.source.origin}: control.weights: in float32 rounding leaves nothing of the weights of "
+            f"{where(bench.scene, 'control.weights')}: in float32 rounding leaves nothing of the weights of "
             f"torques. Write it in float64, or make `torque` and `torque_step` some {lost:.0f} times as large."
         )

@@ -7,7 +7,8 @@ from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.reached import Reached
 from tmm_gen.emit.c.sensitivities import LANES
 from tmm_gen.program.count import count_routine
-from tmm_gen.program.statements import Reduced, Routine, Sensitivities
+from tmm_gen.program.sensitivities.reduced import Reduced
+from tmm_gen.program.statements import Routine, Sensitivities
 
 
 def many_directions(kernel: Kernel, most: int) -> int | None:

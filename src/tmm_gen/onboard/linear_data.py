@@ -94,11 +94,10 @@ class LinearMpcData:
         The least and the largest one that the model is good for, kg.
     sag, felt : array, (s, m) and (p, m)
         Of a rest elsewhere; see :class:`~tmm_gen.control.linear_target.Places`.
-    reach : array, (m,)
-        How far from the arm its target may be, rad.
+    reach, range : array, (m,)
+        How far the model is good, rad; see :class:`~tmm_gen.control.linear_mpc.LinearMpc`.
     tips : tuple of (int, array, array)
-        Which kinds of rows bound tips; by how much the tip at the target grows with each radian that hubs turn,
-        (m,), and with the sines of their angles, (m,).
+        Which kinds of rows bound tips; what a tip at the target grows with: hubs' angles, (m,), and their sines, (m,).
     answers : array, (outputs, m, N)
         Of what is weighed to each motor's torque, sample by sample.
     pulls : array, (outputs, 3 m)
@@ -155,6 +154,7 @@ class LinearMpcData:
     sag: Array
     felt: Array
     reach: Array
+    range: Array
     tips: tuple[tuple[int, Array, Array], ...]
     answers: Array
     pulls: Array
@@ -224,6 +224,7 @@ def linear_mpc_data(controller: LinearMpc) -> LinearMpcData:
         sag=places.sag,
         felt=places.felt[kalman.sensors],
         reach=controller.reach,
+        range=controller.range,
         tips=tuple(
             (place, model.tip[kind.motor] @ model.turned, model.tip[kind.motor] @ places.sag)
             for place, kind in enumerate(controller.condensed.kinds)

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.linear_mpc import APPROACH_TIME
+from tmm_gen.onboard.held_text import HeldText
 from tmm_gen.onboard.linear_data import LinearMpcData
 from tmm_gen.onboard.program_data import INFINITE
-from tmm_gen.onboard.text import ControllerText
 
 
 @dataclass(frozen=True, eq=False)
-class LinearText(ControllerText):
+class LinearText(HeldText):
     """What the templates of a linear MPC ask for.
 
     Parameters
@@ -51,9 +51,15 @@ class LinearText(ControllerText):
         return np.minimum(self.problem.hub_rate, INFINITE)
 
     @property
+    def ranges(self) -> NDArray[np.float64]:
+        """How far hubs may be from the target, (m,), rad, infinite as the solver has it."""
+        return np.minimum(self.data.range, INFINITE)
+
+    @property
     def told_reach(self) -> str:
         """How far the model is good, for people."""
-        return ", ".join(f"{value:g}" for value in self.data.reach)
+        names = zip(self.problem.motors.names, self.data.range, strict=True)
+        return ", ".join(f"{value:g} rad ({name})" for name, value in names if np.isfinite(value))
 
     @property
     def bounds_places(self) -> bool:

@@ -83,6 +83,8 @@ def emit_rti(
     if full:
         directions = mpc.inputs_planned + len(mpc.data.sensors)
         mpc = replace(mpc, many=many_directions(Kernel.of(program, scene), directions))
+    if mpc.many is None and program.sensitivities is not None:  # nobody gathers slopes
+        program = replace(program, sensitivities=replace(program.sensitivities, reduced=None))
     sensing = None
     if mpc.several:
         sensing = SensingText(controller.model.sensing, mpc.data.sensors)

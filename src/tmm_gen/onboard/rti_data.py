@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.arms import arm_of
 from tmm_gen.control.credible import Credible
+from tmm_gen.control.far_gain import FarGain, far_gain
 from tmm_gen.control.holding import holding
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.motor_rows import Motors
@@ -46,11 +47,15 @@ class RtiData:
     weights, targets : tuple of float
         Of each output.
     gains : array, (2^(p - m), s + m + b, p)
-        Of the filter; see :func:`~tmm_gen.onboard.linear_data.gains_by_sensors`.
+        Of the filter; see :func:`~tmm_gen.onboard.linear_data.gains_by_sensors`. Where ``far`` is something, its gain
+        is one more.
+    far : FarGain or None
+        What is taken in far from the target; None where gains of the target are used everywhere.
     spread : array, (p, p)
         Covariance of what sensors are off.
-    ahead_by, moved_by, now_by : array, (2^(p - m) p, m N), (2^(p - m) p, m N + r) and (2^(p - m) p, r)
-        What each sensor's being off makes, at the target, of ``v = R^-T f``, of the bounds by that and of the rows.
+    ahead_by, moved_by, now_by : array, (gains p, m N), (gains p, m N + r) and (gains p, r)
+        By each of the gains: what each sensor's being off makes, at the target, of ``v = R^-T f``, of the bounds by
+        that and of the rows.
     start : array, (s + m,)
         Estimate at time zero.
     start_torque : array, (m,)
@@ -108,6 +113,7 @@ class RtiData:
     weights: tuple[float, ...]
     targets: tuple[float, ...]
     gains: Array
+    far: FarGain | None
     spread: Array
     ahead_by: Array
     moved_by: Array
@@ -156,7 +162,10 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         "keep": np.zeros(len(walls))
     }
     kalman = KalmanFilter(linear, problem)
+    far = far_gain(model, linear, kalman)
     gains, program = gains_by_sensors(kalman), program_data(problem, controller.prepared)
+    if far is not None:
+        gains = np.concatenate([gains, far.gain[None]])
     ahead_by, now_by = _by_sensors(controller, gains, program)
     scaled = program.scaling[:, None] * np.vstack([program.inverse, program.rows @ program.inverse])
     slopes, count = controller.prepared.slopes, problem.horizon
@@ -177,6 +186,7 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         weights=tuple(float(weights[name][motor]) for name, motor in outputs),
         targets=tuple(float(targets[name][motor]) for name, motor in outputs),
         gains=gains,
+        far=far,
         spread=kalman.spread,
         ahead_by=ahead_by,
         moved_by=ahead_by @ scaled.T,

@@ -9,13 +9,13 @@ import numpy as np
 from tmm_gen.control.space_frame import SpaceFrame
 from tmm_gen.control.terms import Kind
 from tmm_gen.control.walls import Wall
+from tmm_gen.onboard.held_text import HeldText
 from tmm_gen.onboard.joint_tables import JointTables
 from tmm_gen.onboard.rti_data import RtiData
-from tmm_gen.onboard.text import ControllerText
 
 
 @dataclass(frozen=True, eq=False)
-class WallText(ControllerText):
+class WallText(HeldText):
     """The part of :class:`~tmm_gen.onboard.rti_text.RtiText` that is about walls.
 
     Parameters

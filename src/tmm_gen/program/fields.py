@@ -74,8 +74,10 @@ def living_state(
     steps: tuple[Routine, ...],
     output: Routine,
     always: frozenset[str] = frozenset(),
-) -> tuple[Variable, ...]:
-    """Return the state that outputs depend on, through any number of steps; the angle always stays.
+) -> tuple[tuple[Variable, ...], tuple[Routine, ...]]:
+    """Return the state that outputs depend on, through any number of steps, and the steps without what sets no such.
+
+    The angle always stays.
 
     Parameters
     ----------
@@ -85,7 +87,7 @@ def living_state(
     alive = {v for v in state if v in output.read() or v.name == "angle" or v.name in always}
     while True:
         wanted = frozenset(alive)
-        for routine in steps:
-            alive |= {v for v in prune(routine, wanted).read() if v.role is Role.STATE}
-        if alive == set(wanted):
-            return tuple(v for v in state if v in alive)
+        pruned = tuple(prune(routine, wanted) for routine in steps)
+        alive |= {v for routine in pruned for v in routine.read() if v.role is Role.STATE}
+        if alive == wanted:
+            return tuple(v for v in state if v in alive), pruned

@@ -94,17 +94,20 @@ def living(program: Program, *, auto: bool, always: frozenset[str] = frozenset()
         Names of state that stays whatever reads it.
     """
     kept = program.state
-    state = living_state(kept, program.steps, program.output, always)
+    state, steps = living_state(kept, program.steps, program.output, always)
     initialise = program.initialise
     if auto:
         state, initialise = (*state, SWEEPS), none_taken(initialise)
         program = replace(program, parameters=(*program.parameters, LEAST_TURN))
     wanted = frozenset(state)
+    if auto:
+        steps = tuple(prune(routine, wanted) for routine in program.steps)
+    *startup, main = steps
     return replace(
         program,
         state=state,
-        startup=tuple(prune(routine, wanted) for routine in program.startup),
-        main=prune(program.main, wanted),
+        startup=tuple(startup),
+        main=main,
         initialise=prune(_without(initialise, kept, wanted), wanted),
     )
 

@@ -6,10 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from tmm_gen.program.variables import Ref, Role, Variable, refs_in
+from tmm_gen.program.variables import Ref, Role, Variable, refs_in, variables_in
+
+if TYPE_CHECKING:
+    from tmm_gen.program.sensitivities.reduced import Reduced
 
 
 @dataclass(frozen=True)
@@ -161,7 +165,7 @@ class Routine:
 
     @cached_property
     def _read(self) -> frozenset[Variable]:
-        return frozenset(ref.variable for value in self.values() for ref in refs_in(value))
+        return frozenset().union(*map(variables_in, self.values()))
 
     def written(self) -> frozenset[Variable]:
         """Variables that are assigned."""
@@ -172,30 +176,6 @@ class Routine:
         return tuple(
             sorted((v for v in self.read() | self.written() if v.role is role), key=lambda v: v.name)
         )
-
-
-@dataclass(frozen=True)
-class Reduced:
-    """How a tangent is carried by slopes of what the step finds, by what it is predicted to do and by inputs.
-
-    Parameters
-    ----------
-    predicted : tuple of Variable
-        Arrays of the tangent: with the inputs' changes, all that the step follows.
-    answer : Variable
-        The part of the state's change that is what the step finds.
-    seeds : tuple of tuple of (Variable, sympy.Expr)
-        For each that is predicted, the changes of the state before the step, at a station, that make it one there and
-        all else zero.
-    carry : Routine
-        Two sections: from the state's change to what is predicted, and, when what the step finds is known, to the
-        state's change behind it.
-    """
-
-    predicted: tuple[Variable, ...]
-    answer: Variable
-    seeds: tuple[tuple[tuple[Variable, sp.Expr], ...], ...]
-    carry: Routine
 
 
 @dataclass(frozen=True)

@@ -178,6 +178,13 @@ def refs_in(expression: sp.Basic) -> frozenset[Ref]:
     return frozenset(s for s in expression.free_symbols if isinstance(s, Ref))
 
 
+@lru_cache(maxsize=1 << 14)
+def variables_in(expression: sp.Basic) -> frozenset[Variable]:
+    """Return the variables in an expression; sets of them take them over without asking for their hashes again."""
+    return frozenset(ref.variable for ref in refs_in(expression))
+
+
+@lru_cache(maxsize=1 << 14)  # a walk asks for the same few at each station
 def local(name: str, doc: str = "", unit: str = "1") -> Ref:
     """Return the symbol of a scratch scalar."""
     return Variable(name, Role.LOCAL, doc=doc, unit=unit).ref

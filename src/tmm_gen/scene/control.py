@@ -45,9 +45,9 @@ class Weights(Table):
         Of what tip angle and hub angle are off their targets, 1/rad^2.
     tip_rate, hub_rate : float
         Of the angles' rates, s^2/rad^2.
-    torque : float
+    torque : float, optional
         Of the torque beyond what holds the target, 1/(N m)^2.
-    torque_step : float
+    torque_step : float, optional
         Of the change of torque from sample to sample, 1/(N m)^2; positive, since it makes the problem convex.
     overshoot, hub_bound : float
         Of what the tip angle passes its bound by, and the hub angle its own, 1/rad^2.
@@ -59,9 +59,17 @@ class Weights(Table):
     hub: EachNonNegative = Field(default=0.0, description="weight of the hub angle", examples=["0.1"])
     tip_rate: EachNonNegative = Field(default=0.0, description="weight of the tip's rate", examples=["1e-3"])
     hub_rate: EachNonNegative = Field(default=0.0, description="weight of the hub's rate", examples=["1e-3"])
-    torque: EachNonNegative = Field(default=1e-3, description="weight of the torque", examples=["1e-3"])
-    torque_step: EachPositive = Field(
-        default=1e-3, description="weight of the change of torque", examples=["1e-3"]
+    torque: EachNonNegative | None = Field(
+        default=None,
+        description="weight of the torque",
+        examples=["1e-3"],
+        json_schema_extra={"absent": "0.001; of motors by name 0.02 over the square of its largest"},
+    )
+    torque_step: EachPositive | None = Field(
+        default=None,
+        description="weight of the change of torque",
+        examples=["1e-3"],
+        json_schema_extra={"absent": "0.001; of motors by name 0.05 over the square of its largest"},
     )
     overshoot: EachPositive = Field(default=1e4, description="weight of overshoot", examples=["1e4"])
     hub_bound: EachPositive = Field(
@@ -141,11 +149,11 @@ class Estimator(Table):
         m/s^2.
     strain : float
         N m.
-    torque : float
+    torque : float, optional
         Of what drives the arm besides the torque known, per sample, N m.
-    disturbance : float
+    disturbance : float, optional
         By how much the constant part of it changes per sample, N m.
-    rate : float
+    rate : float, optional
         By how much the arm's rate as a whole changes per sample without a torque, rad/s: keeps a filter that trusts
         an accelerometer from drifting away from the encoder.
     """
@@ -157,12 +165,23 @@ class Estimator(Table):
     strain: EachPositive = Field(
         default=0.1, description="error of the strain gauge in N m", examples=["0.1"]
     )
-    torque: EachPositive = Field(default=1e-2, description="unknown torque in N m", examples=["0.01"])
-    disturbance: EachPositive = Field(
-        default=1e-2, description="change of the disturbance per sample in N m", examples=["0.01"]
+    torque: EachPositive | None = Field(
+        default=None,
+        description="unknown torque in N m",
+        examples=["0.01"],
+        json_schema_extra={"absent": "0.01; of motors by name 0.05 of its largest torque"},
     )
-    rate: EachNonNegative = Field(
-        default=0.0, description="unexplained change of rate per sample in rad/s", examples=["0.005"]
+    disturbance: EachPositive | None = Field(
+        default=None,
+        description="change of the disturbance per sample in N m",
+        examples=["0.01"],
+        json_schema_extra={"absent": "0.01; of motors by name 0.01 of its largest torque"},
+    )
+    rate: EachNonNegative | None = Field(
+        default=None,
+        description="unexplained change of rate per sample in rad/s",
+        examples=["0.005"],
+        json_schema_extra={"absent": "0; of motors by name 0.02"},
     )
 
 
@@ -187,14 +206,19 @@ class RegulatorWeights(Table):
         1/rad^2.
     tip_rate, hub_rate : float
         s^2/rad^2.
-    torque : float
+    torque : float, optional
         1/(N m)^2, positive.
     """
 
     hub: EachNonNegative = Field(default=0.0, description="weight of the hub angle", examples=["0.1"])
     tip_rate: EachNonNegative = Field(default=0.0, description="weight of the tip's rate", examples=["0.01"])
     hub_rate: EachNonNegative = Field(default=0.0, description="weight of the hub's rate", examples=["0.01"])
-    torque: EachPositive = Field(default=0.1, description="weight of the torque", examples=["0.1"])
+    torque: EachPositive | None = Field(
+        default=None,
+        description="weight of the torque",
+        examples=["0.1"],
+        json_schema_extra={"absent": "0.1; of motors by name 0.4 over the square of its largest"},
+    )
 
 
 class Baselines(Table):

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar, get_args
 
 from pydantic import TypeAdapter
 
@@ -35,6 +35,11 @@ class OneOrEach:
 
     def __call__(self, value: object) -> Any:
         """Return the value, each number in its range."""
+        if isinstance(value, list) and get_args(self.kind)[0] in (float, int):
+            raise fault(
+                "must be a number, or of several motors one by each name",
+                "Write for example `{ shoulder = 2.5, elbow = 1.5 }`, with the names that your motors have.",
+            )
         if not isinstance(value, Mapping):
             return self._one.validate_python(value)
         if not value:

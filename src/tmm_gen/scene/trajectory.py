@@ -10,12 +10,12 @@ from tmm_gen.scene.each import Each, OneOrEach
 from tmm_gen.scene.table import Finite, NonNegative, Positive, Table, fault, is_finite_number
 
 
-def _pair(value: object) -> tuple[float, float]:
-    """Return ``[x, y]`` as a pair."""
+def _place(value: object) -> tuple[float, ...]:
+    """Return ``[x, y]`` or, in space, ``[x, y, z]``."""
     numbers = value if isinstance(value, list | tuple) else ()
-    if len(numbers) == 2 and all(is_finite_number(number) for number in numbers):
-        return float(numbers[0]), float(numbers[1])
-    raise fault("must be two numbers, x and y", "Write for example `[0.5, -0.2]`.")
+    if len(numbers) in (2, 3) and all(is_finite_number(number) for number in numbers):
+        return tuple(float(number) for number in numbers)
+    raise fault("must be a place", "Write for example `[0.5, -0.2]`, and in space `[0.5, -0.2, 0.3]`.")
 
 
 def _direction(value: object) -> tuple[float, ...]:
@@ -28,7 +28,7 @@ def _direction(value: object) -> tuple[float, ...]:
     return tuple(float(number) for number in numbers)
 
 
-Pair = Annotated[tuple[float, float], PlainValidator(_pair)]
+Place = Annotated[tuple[float, ...], PlainValidator(_place)]
 Direction = Annotated[tuple[float, ...], PlainValidator(_direction)]
 EachAngle = Annotated[Each[float], PlainValidator(OneOrEach(Finite))]
 
@@ -42,7 +42,7 @@ class PoseEntry(Table):
         Of the motors' joints, rad.
     frame : str, optional
         Name of a part, whose outer end, at rest, is to be at ``position``.
-    position : (x, y), optional
+    position : (x, y), in space (x, y, z), optional
         m.
     duration : float
         Of the way there, a quintic, s.
@@ -54,7 +54,7 @@ class PoseEntry(Table):
         default=None, description="joint angles in rad", examples=["{ shoulder = 0.8, elbow = -1.2 }"]
     )
     frame: str | None = Field(default=None, description="part to be somewhere", examples=['"payload"'])
-    position: Pair | None = Field(
+    position: Place | None = Field(
         default=None, description="where its outer end is to be in m", examples=["[0.5, -0.2]"]
     )
     duration: Positive = Field(description="of the way there in s", examples=["0.8"])
@@ -70,7 +70,7 @@ class Trajectory(Table):
         CSV with a column ``time`` (s) and one by the name of each motor (rad), or those of ``frame``; relative to the
         scene's folder. Cubic in between.
     frame : str, optional
-        Name of a part: the file then has columns ``<frame>_x`` and ``<frame>_y``, m.
+        Name of a part: the file then has columns ``<frame>_x`` and ``<frame>_y``, in space ``<frame>_z`` too, m.
     pose : tuple of PoseEntry
         From where the scene starts.
     """

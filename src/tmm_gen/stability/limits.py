@@ -169,9 +169,8 @@ def _largest_step(motion: SmallMotion, growth: Growth, undamped: float, damped: 
 def _scanned(growth: Growth, stiffness: float, damping: float) -> float:
     """Return the first step at which a mode visibly grows, on a scan in double precision; infinite if none."""
     fastest = max(math.sqrt(max(stiffness, 0.0)), damping)
-    if (
-        fastest == 0.0
-    ):  # no time of its own: all steps are alike, and double precision cannot part its two ones
+    # no time of its own: all steps are alike, and double precision cannot part its two ones
+    if fastest == 0.0:
         return math.inf if growth.excess(0.0, 0.0) <= 0.0 else 0.0
     steps = np.logspace(-3, 5, 8 * _STEPS_PER_DECADE + 1) / fastest
     grows = growth.radius(stiffness * steps**2, damping * steps) > 1.0 + _VISIBLE

@@ -99,10 +99,8 @@ def read_markup(content: bytes, origin: str) -> Element:
             else ""
         )
         faults.add(error.lineno, "", f"is no XML: {expat.ErrorString(error.code)}{still}", remedy)
-    except (
-        LookupError,
-        ValueError,
-    ) as error:  # an encoding that Python does not have, or cannot give to Expat
+    except (LookupError, ValueError) as error:
+        # an encoding that Python does not have, or cannot give to Expat
         faults.add(1, "", f"is in an encoding that cannot be read: {error}", "Save the file as UTF-8.")
     faults.settle()
     return roots[0]

@@ -13,6 +13,7 @@ from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE
 from tmm_gen.control.iterations import iteration_limit
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.safe import BRAKE_TIME
@@ -105,10 +106,10 @@ def test_without_an_encoder_torque_goes_to_zero_without_others_it_goes_on(
 
 
 def test_the_safe_law_brakes_by_the_encoder(bench: Bench, emitted: Callable[..., EmittedController]) -> None:
-    """The encoder goes ten turns away by itself, a believable step at a time: there is no other way to ask for it."""
+    """The encoder goes a hundred turns away by itself, a believable step at a time: that is how to ask for it."""
     controller = emitted("mpc-modes")
     controller.reset()
-    hub = 63.99
+    hub = FARTHEST - 0.01
     for _ in range(2):
         controller.command(np.array([hub, 0.0, np.nan]))
     hub += 0.015
@@ -116,6 +117,22 @@ def test_the_safe_law_brakes_by_the_encoder(bench: Bench, emitted: Callable[...,
     assert command.status is Status.MEASUREMENT
     rate = 0.015 / bench.problem.sample_time
     assert command.torque == pytest.approx(-bench.inertia / BRAKE_TIME * rate, rel=1e-9)
+
+
+def test_the_safe_law_brakes_a_hub_that_whirls(
+    bench: Bench, emitted: Callable[..., EmittedController]
+) -> None:
+    """It moves too far in a sample for the estimate to follow, but evenly: nobody brakes it otherwise."""
+    kinds = (emitted("mpc-modes"), LinearMpc(bench.modes, bench.problem, bench.inertia))
+    for controller in kinds:
+        controller.reset()
+        for k in range(PATIENCE + 4):
+            command = controller.command(np.array([1.5 * JUMP * k, 0.0, np.nan]))
+        assert command.status is Status.MEASUREMENT
+        assert command.torque == pytest.approx(bench.problem.torque[0])
+        jumped = controller.command(np.array([-20.0, 0.0, np.nan]))  # a jump tells nothing
+        assert jumped.status is Status.MEASUREMENT
+        assert jumped.torque == 0.0
 
 
 @pytest.mark.parametrize("kind", ["mpc-links", "mpc-modes", "rti-zero", "rti"])

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
-from tmm_gen.control.credible import PATIENCE
+from tmm_gen.control.credible import JUMP, PATIENCE
 from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
 from tmm_gen.control.full_nmpc import FullNmpc
 from tmm_gen.control.kalman import KalmanFilter
@@ -165,6 +165,26 @@ def test_an_encoder_that_is_off_makes_the_estimate_wait(two: Bench) -> None:
     before = mpc.estimator.ahead([])[0].copy()
     assert mpc.command(good + np.array([0.001, 0.5, *4 * [0.0]])).status is Status.REDUCED
     assert_allclose(mpc.estimator.ahead([])[0], before, atol=0.0)
+
+
+def test_an_estimate_that_started_anew_takes_in_what_hubs_can_do_until_it_has_proved_itself(
+    two: Bench,
+) -> None:
+    """Off by half a radian is a hub that whirls as long as nobody knows better, and a wrong encoder then."""
+    mpc = LinearMpc(two.links, two.problem, two.inertia)
+    none, aside = 4 * [np.nan], np.array([0.0, 0.5, *4 * [0.0]])
+    good = np.append(two.links.start_hub, none)
+    assert mpc.command(good).status is Status.OK
+    statuses = [mpc.command(good + aside).status for _ in range(PATIENCE + 1)]
+    assert statuses == [Status.REDUCED] * PATIENCE + [Status.OK]  # started anew there
+    for off, status in ((0.5, Status.OK), *[(0.0, Status.OK)] * PATIENCE, (0.5, Status.REDUCED)):
+        mpc.prepare()
+        seen = np.append(mpc.estimator.hubs()[0], none) + 2.0 * off * aside
+        assert mpc.command(seen).status is status
+    mpc.prepare()
+    far = np.append(mpc.estimator.hubs()[0], none) + 2.0 * JUMP * aside
+    mpc.reset()
+    assert mpc.command(far).status is Status.OK  # where it starts, the encoders say
 
 
 def hubs(rti: RealTimeIteration) -> np.ndarray:

@@ -17,7 +17,7 @@ from tmm_gen.control.condition import CONDITIONS, Condition
 from tmm_gen.control.course import Course
 from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.reach import Frame
+from tmm_gen.control.plane_frame import PlaneFrame
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.walls import Wall
 from tmm_gen.onboard.emit import emit_controller
@@ -196,10 +196,13 @@ def test_a_reference_that_is_followed_is_that_of_python(
             assert emitted.follow(reference) is python.follow(reference) is status
         plant.advance(follow_both(emitted, python, plant.measured()))
     # the elbow was at 0 and is to come to -0.5, which is through the floor; the shoulder is too weak to keep up
-    frame, angles = Frame.of(plant.scene, "payload"), np.array([state["angle"] for state in plant.states])
+    frame, angles = (
+        PlaneFrame.of(plant.scene, "payload"),
+        np.array([state["angle"] for state in plant.states]),
+    )
     assert np.min(frame.place(angles)[:, 1]) > FLOOR["offset"]
     resting = python.rest[late.step.places("angle")]
-    assert Frame.of(late.scene, "payload").place(resting)[1] < FLOOR["offset"] - 0.05
+    assert PlaneFrame.of(late.scene, "payload").place(resting)[1] < FLOOR["offset"] - 0.05
 
 
 LIMITS = {

@@ -25,12 +25,13 @@ def benchmark_module() -> Iterator[Any]:
     sys.path.remove(str(ROOT / "benchmarks"))
 
 
-def test_all_come_back_whatever_they_were_told(firm_bench: Bench, benchmark_module: Any) -> None:
+@pytest.mark.parametrize("kind", ["rti", "mpc-links"])
+def test_all_come_back_whatever_they_were_told(kind: str, firm_bench: Bench, benchmark_module: Any) -> None:
     """In single precision; each kind of what can be told is taken at times and refused at times."""
-    loop = benchmark_module.ArmLoop(firm_bench, "rti", "float32", flags=("-O1", "-ffp-contract=off"))
+    loop = benchmark_module.ArmLoop(firm_bench, kind, "float32", flags=("-O1", "-ffp-contract=off"))
     found = benchmark_module.outcomes(loop, 5, number=1)
     assert not [each for each in found if benchmark_module.failed(each[1], firm_bench.problem.sample_time)]
-    shown = benchmark_module.row("rti", "float32", found, firm_bench.problem.sample_time)
+    shown = benchmark_module.row(kind, "float32", found, firm_bench.problem.sample_time)
     for told in ("limit", "aim", "follow", "carry"):
         assert shown["answers"][f"{told}_ok"] > 0
         assert any(answer.startswith(told) and not answer.endswith("ok") for answer in shown["answers"])

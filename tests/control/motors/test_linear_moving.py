@@ -25,9 +25,12 @@ BOUNDED = {
     "control.delay": 0.03,
     "control.bounds.torque_rate": {"shoulder": 10.0, "elbow": 1.0},
     "control.bounds.hub_rate": 4.0,
+    "control.bounds.hub": None,
 }
 FELT = {"control.sensors.accelerometer": {"elbow": 0.02}, "control.sensors.strain": 0.002}
-FAR = np.array([2.2, -1.2])
+DAQP = 1e-9
+"""Both solve the same program to its tolerance, by ways of their own, N m."""
+FAR = np.array([1.2, 2.2])
 """Further from the scene's reference than a linear model of it is good."""
 
 
@@ -63,16 +66,21 @@ def pair(request: pytest.FixtureRequest, two: Bench) -> tuple[Bench, EmittedCont
 
 @pytest.mark.compiler
 def test_what_is_told_makes_the_torques_of_python(pair: tuple[Bench, EmittedController, LinearMpc]) -> None:
-    """Steps, a way told sample by sample and left to itself, payloads; encoders lost meanwhile; what is refused."""
+    """From where the model is not good: a way told sample by sample and left to itself, steps, payloads.
+
+    Encoders are lost meanwhile.
+    """
     bench, emitted, python = pair
     for each in (emitted, python):
         each.reset()
     problem = bench.problem
     plant, random = Plant(bench.scene, problem, CONDITIONS[1], seed=4), np.random.default_rng(7)
+    start = rest_with(plant.scene, np.array([0.3, 0.9]), "here")
+    plant.kernel.initialise(initial_angle=start.angles, inputs=plant.motors.torques(start.goal.torque))
     course, taken, far = course_of(bench, np.array([0.6, -0.9]), 60), 0, 0
-    aims = {40: [0.9, -0.8], 44: [0.92, -0.82], 60: FAR, 90: problem.reference}
-    payloads = {6: 0.35, 12: 0.0, 70: 0.28, 100: 0.3}
-    for k in range(120):
+    aims = {40: [0.9, -0.8], 44: [0.92, -0.82], 58: FAR, 96: problem.reference}
+    payloads = {6: 0.35, 12: 0.0, 57: 0.28, 112: 0.3}
+    for k in range(130):
         if k < 26 and k not in (8, 9, 10):
             ahead = course.ahead(k, problem.horizon)
             assert emitted.follow(ahead) is python.follow(ahead) is Status.OK
@@ -86,13 +94,13 @@ def test_what_is_told_makes_the_torques_of_python(pair: tuple[Bench, EmittedCont
             emitted.prepare()
             python.prepare()
         expected, found = python.command(seen, valid), emitted.command(np.where(valid, seen, 7.0), valid)
-        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=1e-10)
+        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=DAQP)
         assert found.status is expected.status, k
-        far += bool(np.any(np.abs(python.estimator.hubs()[0] - problem.reference) > python.reach))
+        far += bool(np.any(np.abs(python.estimator.hubs()[0] - problem.reference) > python.range))
         taken += found.status is Status.OK
         plant.advance(expected.torque)
     assert taken > 60
-    assert 5 < far < 60
+    assert 3 < far < 70
 
 
 @pytest.mark.compiler
@@ -130,7 +138,7 @@ def test_what_cannot_be_leaves_what_was_told(pair: tuple[Bench, EmittedControlle
     for _ in range(5):
         seen = plant.measured()
         expected, found = python.command(seen), emitted.command(seen)
-        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=1e-10)
+        assert_allclose(found.torque, expected.torque, rtol=0.0, atol=DAQP)
         plant.advance(expected.torque)
 
 
@@ -163,23 +171,24 @@ def test_small_moves_are_exact_to_first_order(two: Bench) -> None:
 
 
 @pytest.mark.compiler
-@pytest.mark.parametrize("payload", [0.0, 0.3, 0.45])
-def test_an_arm_that_was_thrown_comes_back(firm_bench: Bench, payload: float) -> None:
+def test_an_arm_that_was_thrown_comes_back(firm_bench: Bench) -> None:
     """From folded, turns away, with any payload that it was told of; in single precision."""
     controller = compiled(firm_bench, "mpc-links", "float32")
     plant = Plant(firm_bench.scene, firm_bench.problem, CONDITIONS[0])
-    plant.kernel.prepare({"tip_mass": payload}, plant.step)
     start = rest_with(plant.scene, np.array([-4.0, 3.5]), "here")
     held = np.clip(start.goal.torque, *firm_bench.problem.torque)
-    plant.kernel.initialise(initial_angle=start.angles, inputs=plant.motors.torques(held))
-    assert controller.carry(payload) is Status.OK
-    statuses = []
-    for _ in range(240):
-        command = controller.command(plant.measured())
-        statuses.append(command.status)
-        plant.advance(command.torque)
-    assert set(statuses[6:]) == {Status.OK}
-    assert_allclose(plant.angles()[2:], firm_bench.problem.reference, atol=5e-3)
+    for payload in (0.0, 0.3, 0.45):
+        plant.kernel.prepare({"tip_mass": payload}, plant.step)
+        plant.kernel.initialise(initial_angle=start.angles, inputs=plant.motors.torques(held))
+        controller.reset()
+        assert controller.carry(payload) is Status.OK
+        statuses = []
+        for _ in range(240):
+            command = controller.command(plant.measured())
+            statuses.append(command.status)
+            plant.advance(command.torque)
+        assert set(statuses[6:]) == {Status.OK}
+        assert_allclose(plant.angles()[2:], firm_bench.problem.reference, atol=5e-3)
 
 
 def test_an_arm_on_a_hub_is_told_nothing(bench: Bench) -> None:

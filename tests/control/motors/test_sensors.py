@@ -16,7 +16,7 @@ from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
 from tmm_gen.control.kalman import present_sensors
 from tmm_gen.control.links import target_state
-from tmm_gen.control.reach import Frame
+from tmm_gen.control.plane_frame import PlaneFrame
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.sensing import Sensing, sites_of
 from tmm_gen.control.target import find_target, rest_with
@@ -50,7 +50,7 @@ def test_accelerometers_feel_second_differences_of_places(elbow: Scene) -> None:
     found = sensing.values(angles, rates, growth)
     time = 1e-4
     for motor, name in enumerate(("upper", "forearm")):
-        frame = Frame.of(bench.step.scene, name)
+        frame = PlaneFrame.of(bench.step.scene, name)
         before, now, after = (
             frame.place(angles + t * rates + 0.5 * t**2 * growth) for t in (-time, 0.0, time)
         )

@@ -15,8 +15,8 @@ from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.course import course_of
 from tmm_gen.control.following import Following
+from tmm_gen.control.plane_frame import PlaneFrame
 from tmm_gen.control.pose import Pose, pose_in
-from tmm_gen.control.reach import Frame
 from tmm_gen.control.target import rest_with
 from tmm_gen.control.window import Window
 from tmm_gen.errors import UserError
@@ -53,7 +53,7 @@ def test_a_course_goes_by_quintics_and_stops(small: Scene) -> None:
     assert course.stops(90) == [(30, 45), (70, 89)]
     assert_allclose(np.diff(course.angles[:4], axis=0)[0], 0.0, atol=1e-3)
     rest = rest_with(scene, course.angles[-1], "here")
-    assert_allclose(Frame.of(scene, "payload").place(rest.angles), [0.6, 0.2], atol=1e-9)
+    assert_allclose(PlaneFrame.of(scene, "payload").place(rest.angles), [0.6, 0.2], atol=1e-9)
     assert course.angles[-1, 1] < 0.0
 
 
@@ -61,7 +61,7 @@ def test_a_file_tells_joints_or_positions(small: Scene, tmp_path: Path) -> None:
     """The same way, told by angles and by where the payload rests with them."""
     times = np.linspace(0.0, 0.4, 11)
     angles = np.outer(np.sin(2.0 * times), [0.5, -1.0])
-    frame = Frame.of(small, "payload")
+    frame = PlaneFrame.of(small, "payload")
     places = [frame.place(rest_with(small, row, "here").angles) for row in angles]
     for name, heading, rows in (
         ("joints", "shoulder,elbow", angles),
@@ -188,7 +188,7 @@ def test_controllers_follow_and_without_a_wall_the_payload_goes_through_it(lower
     with pytest.raises(UserError, match=r":\d+: control\.keep: .* keeps no walls; take rti-zero, rti"):
         BY_NAME["mpc-links"].require_able(walled)
     assert usual_controller(walled) == "rti-zero"  # and not one that would be refused then
-    with pytest.raises(UserError, match=r"follows no control\.trajectory; take one of pd,"):
+    with pytest.raises(UserError, match=r":\d+: control\.trajectory: .* follows none; take one of pd,"):
         BY_NAME["nmpc"].require_able(lowered)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +20,7 @@ from tmm_gen.control.course import Course
 from tmm_gen.control.credible import PATIENCE
 from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.kalman import present_sensors
+from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.rti import FAR, RealTimeIteration
 from tmm_gen.control.target import rest_with
 from tmm_gen.control.walls import Wall
@@ -180,10 +182,16 @@ def test_what_holds_up_a_rigid_arm_is_a_sum_of_products(bench: Bench) -> None:
 
 
 def test_accelerometers_and_gauges_are_those_of_python(reach: Scene) -> None:
-    """Full sensitivities: two accelerometers at the payload, a gauge on the beam, each there or not at random."""
+    """Full sensitivities: two accelerometers at the payload, a gauge on the beam, each there or not at random.
+
+    The last of 30 directions are carried by slopes that are gathered first, the first few by sweeps of their own.
+    """
     sensors = {"control.sensors.accelerometer": 0.02, "control.sensors.strain": {"lift": 0.01}}
     felt = Bench.of(reach.replace(**sensors))
-    emitted, python = compiled(felt, *emit_controller(felt, "rti")), in_python(felt, "rti")
+    name, files = emit_controller(felt, "rti")
+    (many,) = re.findall(r"if \(newest >= (\d+)\) \{ /\* so many directions", files[f"{name}.c"])
+    assert 8 <= int(many) < 30
+    emitted, python = compiled(felt, name, files), in_python(felt, "rti")
     plant, random = plant_of(felt.scene, felt.problem, CONDITIONS[1], seed=2), np.random.default_rng(5)
     statuses = []
     for _ in range(30):
@@ -197,13 +205,28 @@ def test_accelerometers_and_gauges_are_those_of_python(reach: Scene) -> None:
 
 
 def test_linear_control_is_that_of_python(reach: Scene) -> None:
-    """By modes, late, with all sensors; encoders lost for long, so that the safe law holds the arm up."""
+    """By modes, late, with all sensors; encoders lost for long, so that the safe law holds the arm up.
+
+    It is told to rest elsewhere, to follow a way, of payloads that its model is good for and one that it is not.
+    """
     sensors = {"control.sensors.accelerometer": 0.02, "control.sensors.strain": {"lift": 0.01}}
     felt = Bench.of(reach.replace(**sensors, **{"control.delay": 0.03}))
     emitted, python = compiled(felt, *emit_controller(felt, "mpc-modes")), BY_NAME["mpc-modes"].make(felt)
+    assert isinstance(python, LinearMpc)
     plant, random = plant_of(felt.scene, felt.problem, CONDITIONS[1], seed=2), np.random.default_rng(5)
-    statuses = []
-    for k in range(50):
+    statuses, horizon, start = [], felt.problem.horizon, felt.problem.start
+    course = Course(start + np.linspace(0.0, 1.0, 40)[:, None] * (np.array([0.4, 0.2]) - start))
+    payloads = {4: 0.45, 18: 0.0, 40: 9.0, 44: 0.35}
+    for k in range(70):
+        if k in payloads:
+            taken = Status.INFEASIBLE if payloads[k] > 5.0 else Status.OK
+            assert emitted.carry(payloads[k]) is python.carry(payloads[k]) is taken
+        if 8 <= k < 16:
+            ahead = course.ahead(k, horizon)
+            assert emitted.follow(ahead) is python.follow(ahead) is Status.OK
+        if k == 48:
+            elsewhere = felt.problem.reference + np.array([-3.0, 0.2])
+            assert emitted.aim(elsewhere) is python.aim(elsewhere) is Status.OK
         seen, valid = plant.measured(), random.random(6) < 0.9
         valid[:2] &= not 25 <= k < 35
         expected, found = python.command(seen, valid), emitted.command(np.where(valid, seen, 7.0), valid)

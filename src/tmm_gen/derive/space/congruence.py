@@ -47,12 +47,11 @@ def turned(sheet: Sheet, inertia: sp.Matrix, turn: sp.Matrix, axis: int) -> sp.M
         whole[k, n] = inertia[k, n] - sine * taken
         whole[i, n] = -cosine * taken - inertia[k, m]
         whole[k, m] = -cosine * taken - inertia[i, n]
-        for row in (rows + axis,):
-            whole[row, m] = inertia[row, m] * cosine - inertia[row, n] * sine
-            whole[row, n] = inertia[row, m] * sine + inertia[row, n] * cosine
-        for column in (columns + axis,):
-            whole[i, column] = inertia[i, column] * cosine - inertia[k, column] * sine
-            whole[k, column] = inertia[i, column] * sine + inertia[k, column] * cosine
+        row, column = rows + axis, columns + axis
+        whole[row, m] = inertia[row, m] * cosine - inertia[row, n] * sine
+        whole[row, n] = inertia[row, m] * sine + inertia[row, n] * cosine
+        whole[i, column] = inertia[i, column] * cosine - inertia[k, column] * sine
+        whole[k, column] = inertia[i, column] * sine + inertia[k, column] * cosine
     return _named(sheet, whole, "turned")
 
 

@@ -56,9 +56,8 @@ def residual(elements: tuple[Element, ...], frame: Frame, *, moved: bool = False
     forces = [force(c) for c in frame.coordinates]
     own = sp.Integer(0)
     for passed in reversed(out.passed):
-        if (
-            passed is out.turning
-        ):  # inward goes the torque of its gear, and what is over on the shaft is told apart
+        if passed is out.turning:
+            # inward goes the torque of its gear, and what is over on the shaft is told apart
             turns = _named(on_shaft, _own(passed, frame), TORQUES[0], "torque on each shaft at a stage")
             on_shaft.append(gap((turns, own)))
             continue

@@ -11,7 +11,7 @@ from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.c.lanes import LaneBody
 from tmm_gen.emit.c.printer import CPrinter
 from tmm_gen.program.count import count_routine
-from tmm_gen.program.statements import Reduced
+from tmm_gen.program.sensitivities.reduced import Reduced
 
 
 @dataclass(frozen=True)

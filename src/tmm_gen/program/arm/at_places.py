@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import sympy as sp
 
@@ -25,6 +26,9 @@ from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.loads import Loads
 from tmm_gen.program.arm.motion import Held, Moving, StageOf
 from tmm_gen.program.variables import Ref, Role, Variable, local
+
+At = Callable[[Any], sp.Expr]
+"""What a variable, or motion that is held, is at a station or node."""
 
 BASE = 0
 """Index of the base among nodes; station j lies between nodes j and j + 1."""
@@ -103,14 +107,14 @@ class AtPlaces:
             values[sp.Symbol(f"node_{name}", real=True)] = variable.entry(index)
         return Binding(self.scratch, values)
 
-    def _values(self, parameter: object, inner: object, outer: object) -> dict[sp.Symbol, sp.Expr]:
-        values: dict[sp.Symbol, sp.Expr] = {s: parameter(v) for s, v in self._parameters.items()}  # type: ignore[operator]
+    def _values(self, parameter: At, inner: At, outer: At) -> dict[sp.Symbol, sp.Expr]:
+        values: dict[sp.Symbol, sp.Expr] = {s: parameter(v) for s, v in self._parameters.items()}
         values |= {**self.gains, **self.loads.values}
         for kind in KINDS:
             if kind in self.motion:
                 if not isinstance(self.motion[kind], Held):
-                    values[INNER[kind]] = inner(self.motion[kind])  # type: ignore[operator]
-                values[OUTER[kind]] = outer(self.motion[kind])  # type: ignore[operator]
+                    values[INNER[kind]] = inner(self.motion[kind])
+                values[OUTER[kind]] = outer(self.motion[kind])
         if self.frame.followed is None and "q" in self.motion:
             values[SINE], values[COSINE] = sp.sin(values[OUTER["q"]]), sp.cos(values[OUTER["q"]])
         return values

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import sympy as sp
 
@@ -56,13 +57,11 @@ class Binding:
 
     def value(self, expression: sp.Expr) -> sp.Expr:
         """Write an expression by variables."""
-        names: dict[sp.Symbol, sp.Expr] = {}
-        for symbol in sp.sympify(expression).free_symbols:
-            if not isinstance(symbol, Ref):
-                names[symbol] = (
-                    self.values.get(symbol, None) if symbol in self.values else self._scratch.ref(symbol.name)
-                )
-        return sp.sympify(expression).xreplace(names)
+        symbols = _symbols(expression)
+        return _with(
+            expression,
+            tuple(self.values[s] if s in self.values else self._scratch.ref(s.name) for s in symbols),
+        )
 
     def target(self, symbol: sp.Symbol) -> Ref:
         """Return the variable a symbol is assigned to."""
@@ -83,3 +82,15 @@ class Binding:
             else:
                 found += in_order([Assign(self.target(s), self.value(v)) for s, v in line.values.items()])
         return found
+
+
+@lru_cache(maxsize=1 << 14)
+def _symbols(expression: sp.Expr) -> tuple[sp.Symbol, ...]:
+    """Return what stands for variables in an expression."""
+    return tuple(symbol for symbol in sp.sympify(expression).free_symbols if not isinstance(symbol, Ref))
+
+
+@lru_cache(maxsize=1 << 15)  # stations that are alike have the same lines at the same variables
+def _with(expression: sp.Expr, values: tuple[sp.Expr, ...]) -> sp.Expr:
+    """Return an expression with values in place of its symbols, in their order."""
+    return sp.sympify(expression).xreplace(dict(zip(_symbols(expression), values, strict=True)))

@@ -15,11 +15,12 @@ from typing import Any
 import sympy as sp
 
 from tmm_gen.derive import expansions
-from tmm_gen.derive.integrators.declaration import KINDS, STEP, past, stage
+from tmm_gen.derive.integrators.declaration import KINDS, STEP, Kind, past, stage
 from tmm_gen.derive.station.frame import COSINE, OUTER, SINE, SQUARE, Frame
 from tmm_gen.derive.station.lets import Let
 from tmm_gen.derive.station.reading import place, walk
 from tmm_gen.derive.station.station import outward
+from tmm_gen.program.arm.at_places import At
 from tmm_gen.program.arm.at_state import AtState
 from tmm_gen.program.arm.layout import Layout
 from tmm_gen.program.arm.walks import Walks
@@ -27,7 +28,7 @@ from tmm_gen.program.motion import history_values, update_assignments
 from tmm_gen.program.statements import Assign, Loop, Order, Section, Statement
 from tmm_gen.program.variables import Ref, Role, Variable, local
 
-_OLD = {"q": expansions.ANGLE, "v": expansions.RATE, "a": expansions.ACCELERATION}
+_OLD: dict[Kind, sp.Symbol] = {"q": expansions.ANGLE, "v": expansions.RATE, "a": expansions.ACCELERATION}
 
 
 class ThesisWalks(Walks):
@@ -49,9 +50,9 @@ class ThesisWalks(Walks):
             *more,
         )
 
-    def _values(self, parameter: object, inner: object, outer: object) -> dict[sp.Symbol, sp.Expr]:
+    def _values(self, parameter: At, inner: At, outer: At) -> dict[sp.Symbol, sp.Expr]:
         values = super()._values(parameter, inner, outer)
-        values |= {symbol: self.stage.sources[past(kind)] for kind, symbol in _OLD.items()}  # type: ignore[arg-type]
+        values |= {symbol: self.stage.sources[past(kind)] for kind, symbol in _OLD.items()}
         values[expansions.SPAN] = sp.sympify(self.stage.scheme.stages[0].instant) * self.layout.step.ref
         values[expansions.NEW_RATE] = values[OUTER["v"]]
         return values
@@ -124,12 +125,12 @@ class ThesisWalks(Walks):
             statements.append(Loop(Order.OUTWARD, 0, n, body))
         return statements
 
-    def _gain(self, kind: str) -> sp.Expr:
-        return self.stage.motion.gain[kind].xreplace({STEP: self.layout.step.ref})  # type: ignore[index]
+    def _gain(self, kind: Kind) -> sp.Expr:
+        return self.stage.motion.gain[kind].xreplace({STEP: self.layout.step.ref})
 
-    def _offset(self, axis: str, kind: str) -> sp.Expr:
+    def _offset(self, axis: str, kind: Kind) -> sp.Expr:
         values = history_values(self.layout.places[axis], lambda v: v.at())
-        return self.stage.motion.offset[kind].subs({STEP: self.layout.step.ref, **values})  # type: ignore[index]
+        return self.stage.motion.offset[kind].subs({STEP: self.layout.step.ref, **values})
 
     def _moved(self, axis: str) -> Variable:
         doc = f"change of the node's acceleration along {axis}"

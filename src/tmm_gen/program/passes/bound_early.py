@@ -10,7 +10,7 @@ import sympy as sp
 
 from tmm_gen.program.passes.look import assigns_of, inside
 from tmm_gen.program.statements import Assign, Require, Section
-from tmm_gen.program.variables import SCRATCH, Variable, refs_in
+from tmm_gen.program.variables import SCRATCH, Variable, refs_in, variables_in
 
 
 def bound_early(sections: list[Section], late_names: Collection[str] = ()) -> set[Variable]:
@@ -31,7 +31,7 @@ def bound_early(sections: list[Section], late_names: Collection[str] = ()) -> se
                 continue
             if value.asks and value.open <= staying:
                 continue
-            late |= {variable for variable in value.read if variable in early and variable not in one_value}
+            late |= (value.read & early) - one_value
         if not late:
             return _worth_it(early, assigns)
         early -= late
@@ -61,7 +61,7 @@ class _Value:
     @classmethod
     def of(cls, statement: Any) -> _Value:
         """Take a statement apart."""
-        read = frozenset(r.variable for r in refs_in(statement.value))
+        read = variables_in(statement.value)
         return cls(
             statement.target.variable if isinstance(statement, Assign) else None,
             isinstance(statement, Require),
@@ -74,13 +74,9 @@ def _worth_it(early: set[Variable], assigns: list[Assign]) -> set[Variable]:
     """Return early variables without those that say nothing, unless others of them read these."""
     found = {a.target.variable for a in assigns if a.target.variable in early and not _trivial(a)}
     while True:
-        read = {
-            ref.variable
-            for a in assigns
-            if a.target.variable in found
-            for ref in refs_in(a.value)
-            if ref.variable in early
-        }
+        read = early.intersection(
+            set[Variable]().union(*(variables_in(a.value) for a in assigns if a.target.variable in found))
+        )
         if read <= found:
             return found
         found |= read
@@ -95,10 +91,7 @@ def _of_one_value(assigns: list[Assign]) -> set[Variable]:
         variable
         for variable, mine in settings.items()
         if len(mine) == 1
-        or (
-            len({a.target for a in mine}) == 1
-            and all(variable not in {r.variable for r in refs_in(a.value)} for a in mine)
-        )
+        or (len({a.target for a in mine}) == 1 and all(variable not in variables_in(a.value) for a in mine))
     }
 
 

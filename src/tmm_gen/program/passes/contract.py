@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from operator import is_
+from typing import TypeGuard
 
 import sympy as sp
 
@@ -121,7 +122,7 @@ def _without_dead_copies(routine: Routine) -> Routine:
         for statement in reversed(section.statements):
             if isinstance(statement, Loop):
                 kept.append(_loop_without_dead_copies(statement, then))
-            elif not (_copies_into_scratch(statement) and then.dead(statement.target.variable)):  # type: ignore[union-attr]
+            elif not (_copies_into_scratch(statement) and then.dead(statement.target.variable)):
                 kept.append(statement)
             then.before(statement)
         if kept:
@@ -135,7 +136,7 @@ def _loop_without_dead_copies(loop: Loop, then: Uses) -> Loop:
     again, rest = first_uses(loop), dict[Variable, bool]()
     for inner in reversed(loop.body):
         if _copies_into_scratch(inner):
-            variable = inner.target.variable  # type: ignore[union-attr]
+            variable = inner.target.variable
             dead = rest.get(variable, again[variable] and then.dead(variable))
         else:
             dead = False
@@ -145,7 +146,7 @@ def _loop_without_dead_copies(loop: Loop, then: Uses) -> Loop:
     return loop if len(body) == len(loop.body) else replace(loop, body=tuple(reversed(body)))
 
 
-def _copies_into_scratch(statement: Assign | Require | Mark) -> bool:
+def _copies_into_scratch(statement: Assign | Require | Mark) -> TypeGuard[Assign]:
     return (
         isinstance(statement, Assign)
         and statement.target.variable.role is Role.LOCAL

@@ -32,13 +32,16 @@ class Hoister:
     names: dict[sp.Expr, tuple[str, str, str]] = field(default_factory=dict)
     _found: dict[sp.Expr, Variable] = field(default_factory=dict)
     _target: Ref | None = None
+    _rewritten: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
 
     def hoist(self, routine: Routine) -> Routine:
         """Return the routine with factors replaced by coefficients."""
 
         def hoisted(value: sp.Expr, target: Ref | None) -> sp.Expr:
-            self._target = target
-            return self._rewrite(value)
+            if value not in self._rewritten:  # stations that are alike ask again and again
+                self._target = target
+                self._rewritten[value] = self._rewrite(value)
+            return self._rewritten[value]
 
         return replace(routine, sections=tuple(map_lines(s, hoisted) for s in routine.sections))
 
@@ -55,16 +58,11 @@ class Hoister:
         )
 
     def _rewrite(self, value: sp.Expr) -> sp.Expr:
-        changing = sorted(
-            (r for r in refs_in(value) if not r.variable.role.bound_at_prepare), key=lambda r: r.name
-        )
-        if not changing or _all_late(value, changing):
-            return value
-        if _plainly_nonlinear(value):
-            return self._inside(value)
-        affine = _plainly_affine(value, changing) or _affine(value, tuple(changing))
+        affine = _taken_apart(value)
         if affine is None:
             return self._inside(value)
+        if not affine:
+            return value
         by_factor: dict[sp.Expr, list[sp.Expr]] = {}
         for monomial, factor in affine:
             held, sign = self._factor(_factored(factor), monomial if monomial != 1 else None)
@@ -113,6 +111,19 @@ class Hoister:
         return unique, doc, unit
 
 
+@lru_cache(maxsize=1 << 14)  # arms that differ in one thing have the same sums besides
+def _taken_apart(value: sp.Expr) -> list[tuple[sp.Expr, sp.Expr]] | None:
+    """Return an expression by what changes in it; nothing where all may stay, None where it is not affine."""
+    changing = sorted(
+        (r for r in refs_in(value) if not r.variable.role.bound_at_prepare), key=lambda r: r.name
+    )
+    if not changing or _all_late(value, changing):
+        return []
+    if _plainly_nonlinear(value):
+        return None
+    return _plainly_affine(value, changing) or _affine(value, tuple(changing))
+
+
 def _all_late(value: sp.Expr, changing: list[Ref]) -> bool:
     """Whether nothing in an expression can be hoisted: all of it changes from step to step."""
     return len(refs_in(value)) == len(changing) and not value.atoms(sp.Number) - {sp.S.One, sp.S.NegativeOne}
@@ -129,7 +140,6 @@ def _plainly_nonlinear(value: sp.Expr) -> bool:
     return nonlinear
 
 
-@lru_cache(maxsize=1 << 12)  # arms that differ in one thing have the same sums besides
 def _affine(value: sp.Expr, changing: tuple[Ref, ...]) -> list[tuple[sp.Expr, sp.Expr]] | None:
     """Return an expression as changing things with their factors, and 1 with the rest; None where it is not affine."""
     polynomial = sp.Poly(value, *changing) if value.is_polynomial(*changing) else None

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import sympy as sp
+
 from tmm_gen.program.passes.lifetimes import Uses, carried_scalars
 from tmm_gen.program.passes.rewrite import keep_assignments, keep_statements
 from tmm_gen.program.statements import Assign, Loop, Require, Routine, Section, Statement
-from tmm_gen.program.variables import SCRATCH, Variable, refs_in
+from tmm_gen.program.variables import SCRATCH, Variable, variables_in
 
 
 def prune(routine: Routine, wanted: frozenset[Variable]) -> Routine:
@@ -19,23 +21,27 @@ def prune(routine: Routine, wanted: frozenset[Variable]) -> Routine:
         Results of the routine: state, coefficients or outputs that live on after it.
     """
     while True:
-        alive = _alive(routine, wanted)
-        pruned = keep_assignments(routine, lambda a, alive=alive: a.target.variable in alive)  # type: ignore[misc]
-        pruned = _without_unread(pruned, wanted)
-        if pruned == routine:
-            return routine
+        kept = _without_dead(routine, wanted)
+        pruned = _without_unread(kept, wanted)
+        if pruned == kept:  # nor is anything dead then that was alive before
+            return routine if kept == routine else kept
         routine = pruned
+
+
+def _without_dead(routine: Routine, wanted: frozenset[Variable]) -> Routine:
+    """Remove what only feeds itself, or others that do."""
+    alive = _alive(routine, wanted)
+    return keep_assignments(routine, lambda assign: assign.target.variable in alive)
 
 
 def _alive(routine: Routine, wanted: frozenset[Variable]) -> set[Variable]:
     """Return what is wanted, or read by what is; what only feeds itself, or others that do, is not among it."""
     alive = set(wanted)
     for value in _required(routine):
-        alive.update(ref.variable for ref in refs_in(value))
+        alive |= variables_in(value)
     feeding: dict[Variable, set[Variable]] = {}
     for assign in routine.assignments():
-        read = feeding.setdefault(assign.target.variable, set())
-        read.update(ref.variable for ref in refs_in(assign.value))
+        feeding.setdefault(assign.target.variable, set()).update(variables_in(assign.value))
     ahead = list(alive)
     while ahead:
         more = feeding.get(ahead.pop(), set()) - alive
@@ -56,7 +62,7 @@ def without_requirements(routine: Routine, wanted: frozenset[Variable] = frozens
     return prune(keep_statements(routine, lambda s: not isinstance(s, Require)), lives_on | wanted)
 
 
-def _required(routine: Routine) -> list:  # type: ignore[type-arg]
+def _required(routine: Routine) -> list[sp.Expr]:
     assigned = {id(a.value) for a in routine.assignments()}
     return [value for value in routine.values() if id(value) not in assigned]
 
@@ -92,6 +98,5 @@ def _read_body(loop: Loop, then: Uses, wanted: frozenset[Variable]) -> tuple[Ass
             read[variable] = False
         else:
             kept.append(inner)
-        for ref in refs_in(inner.value):
-            read[ref.variable] = True
+        read.update(dict.fromkeys(variables_in(inner.value), True))
     return tuple(reversed(kept))

@@ -9,14 +9,39 @@ are of these, products with these slopes take less than sweeps.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import sympy as sp
 
-from tmm_gen.program.statements import Assign, Loop, Order, Reduced, Routine, Section, Sensitivities
+from tmm_gen.program.statements import Assign, Loop, Order, Routine, Section, Sensitivities
 from tmm_gen.program.variables import Role, Variable, refs_in
 
 _Values = dict[Variable, sp.Expr]
 """Of arrays at any station, by what was found there, what was predicted there, and the state before the step."""
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """How a tangent is carried by slopes of what the step finds, by what it is predicted to do and by inputs.
+
+    Parameters
+    ----------
+    predicted : tuple of Variable
+        Arrays of the tangent: with the inputs' changes, all that the step follows.
+    answer : Variable
+        The part of the state's change that is what the step finds.
+    seeds : tuple of tuple of (Variable, sympy.Expr)
+        For each that is predicted, the changes of the state before the step, at a station, that make it one there and
+        all else zero.
+    carry : Routine
+        Two sections: from the state's change to what is predicted, and, when what the step finds is known, to the
+        state's change behind it.
+    """
+
+    predicted: tuple[Variable, ...]
+    answer: Variable
+    seeds: tuple[tuple[tuple[Variable, sp.Expr], ...], ...]
+    carry: Routine
 
 
 def reduced(found: Sensitivities, stations: int) -> Reduced | None:

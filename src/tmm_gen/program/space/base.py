@@ -228,11 +228,11 @@ def earlier(layout: BaseLayout) -> list[Statement]:
             s: h[Past("q", lag)].ref
             for s, h in zip(motion_of.AGO_QUATERNION, layout.quaternion.values(), strict=True)
         }
-        for symbols, kind, variables in (
-            (motion_of.AGO_OMEGA, "v", layout.omega),
-            (motion_of.AGO_ALPHA, "a", layout.alpha),
+        for symbols, at, variables in (
+            (motion_of.AGO_OMEGA, Past("v", lag), layout.omega),
+            (motion_of.AGO_ALPHA, Past("a", lag), layout.alpha),
         ):
-            then |= {s: h[Past(kind, lag)].ref for s, h in zip(symbols, variables.values(), strict=True)}  # type: ignore[arg-type]
+            then |= {s: h[at].ref for s, h in zip(symbols, variables.values(), strict=True)}
         for symbols in (motion_of.PAST_TURN, motion_of.PAST_RATE, motion_of.PAST_ACCELERATION):
             then |= {s: _past(s, lag) for s in symbols}
         found += Binding(Scratch(), {**start, **then}).lines(motion_of.past_lines())

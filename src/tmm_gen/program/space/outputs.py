@@ -60,8 +60,7 @@ class _Readings:
     def __init__(self, layout: SpaceLayout, bodies: Bodies) -> None:
         self._layout, self._bodies = layout, bodies
         self._outputs = {v.name: v.ref for v in layout.outputs}
-        self._passing: list[ArmOutput] = []
-        self._by: dict[str, Callable[[ArmOutput, list[Ref]], list[Statement]]] = {
+        self._by: dict[str, Callable[[Sequence[ArmOutput]], list[Statement]]] = {
             "bend": self._motion,
             "through": self._torque,
             "force": self._force,
@@ -71,9 +70,12 @@ class _Readings:
 
     def statements(self, outputs: Sequence[ArmOutput]) -> list[Statement]:
         """Return the statements of one output, or of several frames that one walk passes."""
-        walked = max(outputs, key=lambda output: output.frame.joint if output.frame else 0)
-        self._passing = [output for output in outputs if output is not walked]
-        return self._by[walked.quantity.read](walked, self._targets(walked))
+        return self._by[outputs[0].quantity.read](outputs)
+
+    def _alone(self, outputs: Sequence[ArmOutput]) -> tuple[ArmOutput, list[Ref]]:
+        """Return an output that is read by itself, and its targets."""
+        (output,) = outputs
+        return output, self._targets(output)
 
     def _targets(self, output: ArmOutput) -> list[Ref]:
         return [self._outputs[column] for column in output.columns]
@@ -95,12 +97,14 @@ class _Readings:
 
     # -- joints ------------------------------------------------------------------------------------------------
 
-    def _motion(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
+    def _motion(self, outputs: Sequence[ArmOutput]) -> list[Statement]:
+        output, targets = self._alone(outputs)
         state = self._state(KINDS[output.quantity.order])
         return [Assign(targets[0], sp.Add(*(state.entry(number - 1) for number in output.turning)))]
 
-    def _torque(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
+    def _torque(self, outputs: Sequence[ArmOutput]) -> list[Statement]:
         """Return what spring, damper and motor exert on the outer side, or what drives a joint that is given."""
+        output, targets = self._alone(outputs)
         layout, k = self._layout, output.passing - 1
         if layout.arm.joints[k].given:
             return self._driving(targets[0])
@@ -126,8 +130,9 @@ class _Readings:
 
         return [*handed_in(self._layout, walks, inward), Assign(target, total)]
 
-    def _force(self, _output: ArmOutput, targets: list[Ref]) -> list[Statement]:
+    def _force(self, outputs: Sequence[ArmOutput]) -> list[Statement]:
         """Return the force of a base that something holds: all that arrives at it, in the axes of the world."""
+        _, targets = self._alone(outputs)
         walks = self._walks()
         totals = [walks.scalar(symbol, "force that has arrived at the base", "N") for symbol in _FORCES]
 
@@ -142,16 +147,17 @@ class _Readings:
 
     # -- frames ------------------------------------------------------------------------------------------------
 
-    def _place(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
-        if output.quantity.order:
-            return self._velocity(output, targets)
-        turns = len(output.quantity.components) == len(QUATERNION)
-        return self._orientation(output, targets) if turns else self._position(output, targets)
+    def _place(self, outputs: Sequence[ArmOutput]) -> list[Statement]:
+        quantity = outputs[0].quantity
+        if quantity.order:
+            return self._velocity(outputs)
+        turns = len(quantity.components) == len(QUATERNION)
+        return self._orientation(outputs) if turns else self._position(outputs)
 
-    def _position(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
-        frame = _frame(output)
+    def _position(self, outputs: Sequence[ArmOutput]) -> list[Statement]:
+        frame = _frame(outputs[0])
         if self._rests(frame):
-            at = sp.Matrix([exactly(r) for r in frame.at])
+            at, (_, targets) = sp.Matrix([exactly(r) for r in frame.at]), self._alone(outputs)
             return [
                 Assign(t, v + moved(self._layout, "place", k))
                 for k, (t, v) in enumerate(zip(targets, at, strict=True))
@@ -160,25 +166,26 @@ class _Readings:
         def value(frame: Frame) -> sp.Matrix:
             return PLACE + FACING.T * sp.Matrix([exactly(r) for r in frame.at])
 
-        return self._read(frame, pose_lines, (*PLACE, *FACING), value, targets, facing_line(place=True))
+        return self._read(pose_lines, (*PLACE, *FACING), value, outputs, facing_line(place=True))
 
-    def _orientation(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
-        frame = _frame(output)
+    def _orientation(self, outputs: Sequence[ArmOutput]) -> list[Statement]:
+        frame = _frame(outputs[0])
 
         def own(frame: Frame) -> sp.Matrix:
             return sp.Matrix([exactly(x) for x in quaternion_of(frame.turn)])
 
         if self._rests(frame):
+            _, targets = self._alone(outputs)
             return [Assign(t, v) for t, v in zip(targets, own(frame), strict=True)]
 
         def value(frame: Frame) -> sp.Matrix:
             return quaternion_product(QUATERNION, own(frame))
 
-        return self._read(frame, quaternion_lines, tuple(QUATERNION), value, targets, quaternion_line())
+        return self._read(quaternion_lines, tuple(QUATERNION), value, outputs, quaternion_line())
 
-    def _velocity(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
-        frame = _frame(output)
-        if self._rests(frame):
+    def _velocity(self, outputs: Sequence[ArmOutput]) -> list[Statement]:
+        if self._rests(_frame(outputs[0])):
+            _, targets = self._alone(outputs)
             return [Assign(t, moved(self._layout, "velocity", k)) for k, t in enumerate(targets)]
 
         def lines(pattern: Pattern) -> Sequence[Line]:
@@ -188,27 +195,25 @@ class _Readings:
             return FACING.T * (VELOCITY + OMEGA.cross(sp.Matrix([exactly(r) for r in frame.at])))
 
         carried = (*VELOCITY, *OMEGA, *FACING)
-        return self._read(frame, lines, carried, value, targets, (*base_velocity(), *facing_line()))
+        return self._read(lines, carried, value, outputs, (*base_velocity(), *facing_line()))
 
     def _read(
         self,
-        frame: Frame,
         lines: Callable[[Pattern], Sequence[Line]],
         carried: tuple[sp.Symbol, ...],
         value: Callable[[Frame], sp.Matrix],
-        targets: list[Ref],
+        outputs: Sequence[ArmOutput],
         begun: tuple[Line, ...],
     ) -> list[Statement]:
-        """Walk out to a frame's body, and read something there and on the way; ``begun`` at a base that floats."""
-        last = frame.joint - 1
-        if not frame.joint:
-            there = Update(dict(zip(targets, value(frame), strict=True)))
-            return list(self._walks().base_lines((*begun, there)))
-        reads: dict[int, dict[Ref, sp.Expr]] = {last: dict(zip(targets, value(frame), strict=True))}
-        for other in self._passing:
-            passed = _frame(other)
-            values = zip(self._targets(other), value(passed), strict=True)
-            reads.setdefault(passed.joint - 1, {}).update(values)
+        """Walk out to the last frame's body, and read outputs on the way; ``begun`` at a base that floats."""
+        reads: dict[int, dict[Ref, sp.Expr]] = {}
+        for output in outputs:
+            frame = _frame(output)
+            values = zip(self._targets(output), value(frame), strict=True)
+            reads.setdefault(frame.joint - 1, {}).update(values)
+        last = max(reads)
+        if last < 0:
+            return list(self._walks().base_lines((*begun, Update(reads[last]))))
 
         def read(index: int) -> Sequence[Line]:
             return (Update(reads[index]),) if index in reads else ()
@@ -237,7 +242,8 @@ class _Readings:
         walked = walks.walk(Order.OUTWARD, all_lines, carried, base=of_base)
         return [Assign(total, sp.Integer(0)), *walked, Assign(target, total)]
 
-    def _energy(self, output: ArmOutput, targets: list[Ref]) -> list[Statement]:
+    def _energy(self, outputs: Sequence[ArmOutput]) -> list[Statement]:
+        output, targets = self._alone(outputs)
         by = {"kinetic": self._kinetic, "elastic": self._elastic, "gravitational": self._gravitational}
         return by[output.quantity.energy](targets)
 

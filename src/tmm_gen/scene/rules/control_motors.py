@@ -9,7 +9,7 @@ from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.rules.control import told_by_name, within_reach
 from tmm_gen.scene.rules.control_sensors import sensed_in_plane
-from tmm_gen.scene.rules.control_trajectory import can_be_followed
+from tmm_gen.scene.rules.control_trajectory import can_be_followed, can_be_kept
 from tmm_gen.scene.table import closest
 
 _OF_SOME: tuple[Path, ...] = (("control", "sensors", "accelerometer"), ("control", "sensors", "strain"))
@@ -38,7 +38,9 @@ def motors_controlled(document: PartsDocument) -> Iterator[Finding]:
     if broken := list(motors_told(control, motors)):
         yield from broken
         return
-    yield from can_be_followed(document, control, motors)
+    frames = tuple(part.name for part in made.parts if part.last)
+    yield from can_be_kept(control, frames, "xy")
+    yield from can_be_followed(control, motors, frames, "xy")
     yield from sensed_in_plane(document, control, motors)
 
 

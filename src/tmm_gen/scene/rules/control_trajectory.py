@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from tmm_gen.scene.control import Control
 from tmm_gen.scene.document import Document
 from tmm_gen.scene.each import by_names
-from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.table import closest
 from tmm_gen.scene.trajectory import Keep
@@ -16,6 +15,7 @@ from tmm_gen.scene.trajectory import Keep
 _TRAJECTORY: Path = ("control", "trajectory")
 _SOLID = "beam, link or body"
 _NUMBERS = {2: "two", 3: "three"}
+_SOMEWHERE = ("0.5", "-0.2", "0.3")
 
 
 def moves_by_parts(document: Document) -> Iterator[Finding]:
@@ -23,21 +23,16 @@ def moves_by_parts(document: Document) -> Iterator[Finding]:
     control = document.control
     if control is None:
         return
-    yield from no_trajectory(control)
+    if control.trajectory:
+        yield Finding(
+            _TRAJECTORY,
+            "is for arms whose motors are parts by name",
+            "Remove the table, or write such an arm.",
+        )
     if control.keep:
         yield Finding(
             ("control", "keep"),
             "is for arms whose motors are parts by name",
-            "Remove the table, or write such an arm.",
-        )
-
-
-def no_trajectory(control: Control) -> Iterator[Finding]:
-    """Find a trajectory of another arm than a planar one by parts."""
-    if control.trajectory:
-        yield Finding(
-            _TRAJECTORY,
-            "is for planar arms whose motors are parts by name",
             "Remove the table, or write such an arm.",
         )
 
@@ -52,7 +47,7 @@ def can_be_kept(control: Control, frames: tuple[str, ...], axes: str) -> Iterato
     axes : {"xy", "xyz"}
         Along which the arm moves.
     """
-    kind = "part that moves" if len(axes) == 3 else _SOLID
+    kind = _kind(axes)
     for index, keep in enumerate(control.keep):
         path: Path = ("control", "keep", index)
         yield from _known((*path, "frame"), keep.frame, frames, kind)
@@ -90,20 +85,22 @@ def _unit(normal: tuple[float, ...]) -> list[float]:
     return [each / longest / length for each in normal]
 
 
-def can_be_followed(document: PartsDocument, control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
+def can_be_followed(
+    control: Control, motors: tuple[str, ...], frames: tuple[str, ...], axes: str
+) -> Iterator[Finding]:
     """Find poses that are told twice or not at all, parts there are not, and angles beyond the bounds.
 
     Parameters
     ----------
-    document : PartsDocument
-        Of the arm.
     control : Control
         Which tells all that is told by name of all motors.
     motors : tuple of str
         Their names.
+    frames : tuple of str
+        Names of the parts that move.
+    axes : {"xy", "xyz"}
+        Along which the arm moves.
     """
-    frames = tuple(part.name for part in document.expansion.parts if part.last)
-    yield from can_be_kept(control, frames, "xy")
     way = control.trajectory
     if way is None:
         return
@@ -117,7 +114,8 @@ def can_be_followed(document: PartsDocument, control: Control, motors: tuple[str
         yield Finding(
             (*_TRAJECTORY, "frame"), "is of a file, and there is none", "Write it in each pose.", way.frame
         )
-    yield from _known((*_TRAJECTORY, "frame"), way.frame, frames)
+    kind = _kind(axes)
+    yield from _known((*_TRAJECTORY, "frame"), way.frame, frames, kind)
     for index, pose in enumerate(way.pose):
         path: Path = (*_TRAJECTORY, "pose", index)
         if (pose.frame is None) != (pose.position is None) or (pose.angles is None) == (pose.frame is None):
@@ -127,7 +125,14 @@ def can_be_followed(document: PartsDocument, control: Control, motors: tuple[str
                 "Write one of them, and that whole.",
             )
             continue
-        yield from _known((*path, "frame"), pose.frame, frames)
+        yield from _known((*path, "frame"), pose.frame, frames, kind)
+        if pose.position is not None and len(pose.position) != len(axes):
+            yield Finding(
+                (*path, "position"),
+                f"must be {_NUMBERS[len(axes)]} numbers: {', '.join(axes)}",
+                f"Write for example `[{', '.join(_SOMEWHERE[: len(axes)])}]`, in m.",
+                list(pose.position),
+            )
         if pose.angles is None or control.bounds.hub is None:
             continue
         for angle, (low, high) in zip(
@@ -142,6 +147,10 @@ def can_be_followed(document: PartsDocument, control: Control, motors: tuple[str
                 )
 
 
-def _known(path: Path, frame: str | None, frames: tuple[str, ...], kind: str = _SOLID) -> Iterator[Finding]:
+def _kind(axes: str) -> str:
+    return "part that moves" if len(axes) == 3 else _SOLID
+
+
+def _known(path: Path, frame: str | None, frames: tuple[str, ...], kind: str) -> Iterator[Finding]:
     if frame is not None and frame not in frames:
         yield Finding(path, f"is not the name of a {kind}", closest(frame, frames), frame)

@@ -9,7 +9,7 @@ from tmm_gen.scene.each import by_names
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.control_motors import motors_told
 from tmm_gen.scene.rules.control_sensors import sensed_in_space
-from tmm_gen.scene.rules.control_trajectory import can_be_kept, no_trajectory
+from tmm_gen.scene.rules.control_trajectory import can_be_followed, can_be_kept
 from tmm_gen.scene.spatial.document import SpatialDocument
 
 
@@ -27,13 +27,13 @@ def motors_in_space_controlled(document: SpatialDocument) -> Iterator[Finding]:
         return
     numbers = document.expansion.numbers
     turned = {numbers[item.at] for item in document.input if item.acts == "torque"}
-    yield from no_trajectory(control)
     frames = tuple(name for name, frame in document.expansion.frames.items() if frame.joint)
     yield from can_be_kept(control, frames, "xyz")
     motors = tuple(name for name, number in numbers.items() if number in turned)
     if broken := list(motors_told(control, motors)):
         yield from broken
         return
+    yield from can_be_followed(control, motors, frames, "xyz")
     yield from _beyond_limits(document, control, motors)
     yield from sensed_in_space(document, control, motors)
 

@@ -1,0 +1,41 @@
+"""Where a part of a planar arm is, and what moves it there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmm_gen.scene import Scene
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneFrame:
+    """A part's outer end.
+
+    Parameters
+    ----------
+    lengths : array, (d,)
+        Of the links from the base to it, zero beyond, m.
+    """
+
+    lengths: Array
+
+    @classmethod
+    def of(cls, scene: Scene, name: str) -> PlaneFrame:
+        """Return the frame of a beam, link or body of an arm by parts without branches."""
+        last = next(part.last for part in scene.parts if part.name == name)
+        lengths = np.array([link.length for link in scene.links])
+        lengths[last:] = 0.0
+        return cls(lengths)
+
+    def place(self, angles: Array) -> Array:
+        """Return where it is, (2,) or (k, 2), m, for the arm's angles, (d,) or (k, d), rad."""
+        return np.stack([np.cos(angles) @ self.lengths, np.sin(angles) @ self.lengths], axis=-1)
+
+    def slopes(self, angles: Array) -> Array:
+        """Return the derivatives of its place by the angles, (2, d) or (k, 2, d)."""
+        return np.stack([-np.sin(angles) * self.lengths, np.cos(angles) * self.lengths], axis=-2)

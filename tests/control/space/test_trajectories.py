@@ -1,0 +1,97 @@
+"""Trajectories in space: poses by joint angles and by places, files of places, and how controllers follow them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from tmm_gen.closed_loop.compare import compare
+from tmm_gen.control.bench import Bench
+from tmm_gen.control.condition import CONDITIONS
+from tmm_gen.control.controllers import BY_NAME
+from tmm_gen.control.course import course_of
+from tmm_gen.control.part_frame import end_of
+from tmm_gen.control.target import rest_with
+from tmm_gen.errors import UserError
+from tmm_gen.native import compile_kernel
+from tmm_gen.program.build import build_program
+from tmm_gen.scene import Scene, parse_scene
+
+THERE = {"yaw": 0.5, "lift": -0.2}
+
+
+def with_poses(scene: Scene, *poses: dict[str, object]) -> Scene:
+    return scene.replace(**{"control.trajectory": {"pose": list(poses)}})
+
+
+def resting_place(scene: Scene, angles: np.ndarray) -> np.ndarray:
+    """Return where the payload rests, as the generated kernel shows it."""
+    kernel = compile_kernel(build_program(scene), scene, flags=("-O1",))
+    kernel.prepare()
+    kernel.initialise(initial_angle=rest_with(scene, angles, "here").angles)
+    shown = kernel.output()
+    return np.array([shown[f"payload_{axis}"] for axis in "xyz"])
+
+
+@pytest.fixture(scope="module")
+def place(reach: Scene) -> list[float]:
+    """Where the payload rests with the motors there."""
+    return resting_place(reach, np.array([*THERE.values()])).tolist()
+
+
+def test_a_place_is_reached_by_the_joints_that_rest_there(reach: Scene, place: list[float]) -> None:
+    """The arm sags, so that straight links would put the payload elsewhere."""
+    pose = {"frame": "payload", "position": place, "duration": 0.4, "dwell": 0.2}
+    scene = with_poses(reach, pose)
+    course = course_of(scene, Bench.of(scene).problem)
+    assert course is not None
+    assert_allclose(course.angles[0], [0.0, -0.5], atol=1e-12)
+    assert_allclose(course.angles[-1], [*THERE.values()], atol=1e-8)
+    assert course.stops(40) == [(20, 39)]
+    assert end_of(scene) == "payload"
+
+
+def test_a_file_of_places_has_three_columns(
+    tmp_path: Path, words: str, reach: Scene, place: list[float]
+) -> None:
+    start = resting_place(reach, np.array([0.0, -0.5]))
+    told_at = [(0.0, start.tolist()), (0.4, place)]
+    rows = [",".join(f"{number!r}" for number in [time, *where]) for time, where in told_at]
+    (tmp_path / "way.csv").write_text("\n".join(["time,payload_x,payload_y,payload_z", *rows]) + "\n")
+    told = '\n[control.trajectory]\nfile = "way.csv"\nframe = "payload"\n'
+    scene = parse_scene(words + told, str(tmp_path / "reach.toml"))
+    with pytest.raises(UserError, match=r"way\.csv, t = 0\.02 s: 'payload' cannot rest at"):
+        _ = Bench.of(scene).course  # two motors keep the payload on a sphere, and the way is straight
+
+
+@pytest.mark.parametrize(
+    ("pose", "said"),
+    [
+        ({"frame": "payload", "position": [0.5, 0.1]}, r"three numbers: x, y, z .* Write for example"),
+        ({"frame": "payload", "position": [0.9, 0.0, 0.0]}, r"The way along the arm to it is 0\.6 m"),
+        ({"frame": "paylod", "position": [0.5, 0.0, 0.0]}, r"Did you mean 'payload'\?"),
+        ({"angles": {"yaw": 0.0}}, r"lift"),
+        ({"angles": {"yaw": 2.0, "lift": 0.0}}, r"'yaw' would be at 2 rad, beyond its limits or .*\[-1, 1\]"),
+    ],
+)
+def test_what_cannot_be_reached_is_refused_in_a_line(
+    reach: Scene, pose: dict[str, object], said: str
+) -> None:
+    limited = reach.replace(**{"motor.yaw.limits": [-1.0, 1.0]})
+    with pytest.raises(UserError, match=said):
+        _ = Bench.of(with_poses(limited, {**pose, "duration": 0.5})).course
+
+
+def test_controllers_follow_and_stop_at_the_place(reach: Scene, place: list[float]) -> None:
+    """Of an arm with more cells; the end is where it is to be when it stops."""
+    scene = with_poses(reach, {"frame": "payload", "position": place, "duration": 0.6, "dwell": 0.6})
+    kinds = [BY_NAME[name] for name in ("pd-id", "mpc-links", "rti-zero")]
+    for trial in compare(Bench.of(scene), kinds, [CONDITIONS[0]], 1.2):
+        assert trial.tracking is not None
+        assert trial.tracking.largest < 0.05, trial.kind.name
+        assert trial.figures.fallbacks == 0
+        assert trial.tracking.vibration is not None
+        assert trial.tracking.vibration < 0.01, trial.kind.name
