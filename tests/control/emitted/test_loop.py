@@ -1,4 +1,5 @@
-"""The loop in real time beside an emitted controller: it compiles as it lies, and moves the arm that Python moves.
+"""The loop in real time beside an emitted controller: it compiles as it lies, and moves the arm that Python moves,
+whose sensors show the same.
 
 How late it wakes is the machine's: nothing is said of that but that it waits at all.
 """
@@ -20,12 +21,36 @@ from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.space_motors import space_motors
+from tmm_gen.control.target import rest_with
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.scene import Scene, load_scene
 
 pytestmark = pytest.mark.compiler
 
-STRICT = "-std=c99 -O1 -Wall -Wextra -Wpedantic example/loop.c *.c plant/*.c daqp/*.c -lm -o loop"
+STRICT = "gcc -std=c99 -O1 -Wall -Wextra -Wpedantic -c"
+PROBE = """
+#define main loop_main
+#include "example/loop.c"
+#undef main
+int main(void)
+{
+    NAME_real measured[SENSORS], torque[MOTORS];
+    int good = begin();
+    for (int k = 0; k < 12; ++k) {
+        for (int j = 0; j < MOTORS; ++j) {
+            torque[j] = (NAME_real)(start_torque[j] * (1.0 + 0.25 * k) + 0.0078125 * (k % 5));
+        }
+        write_torques(torque);
+        good = good && let_time_pass();
+        read_sensors(measured);
+        for (int i = 0; i < SENSORS; ++i) {
+            printf("%.17g ", (double)measured[i]);
+        }
+    }
+    return !good;
+}
+"""
+"""Moves the arm of the loop by torques that are known, and prints what its sensors show."""
 MID_MOTION = 0.26
 """s."""
 
@@ -65,6 +90,20 @@ def tips_in_python(bench: Bench, controller: Controller, seconds: float) -> np.n
     return motors.tip @ np.array([*([state["hub_angle"]] if plant.scene.hub else []), *state["angle"]])
 
 
+def shown_in_python(bench: Bench) -> np.ndarray:
+    """Return what the sensors of the same arm show along the motion of the probe."""
+    plant = plant_of(bench.scene, bench.problem, CONDITIONS[0])
+    held = np.zeros(bench.problem.count)
+    if not bench.problem.motors.on_hub:
+        held = rest_with(plant.scene, bench.problem.start, "initial.angles").goal.torque
+    seen = []
+    for k in range(12):
+        plant.advance(held * (1.0 + 0.25 * k) + 0.0078125 * (k % 5))
+        seen.append(plant.measured())
+    shown = np.array(seen)
+    return shown[:, ~np.isnan(shown[0])].ravel()
+
+
 @pytest.mark.parametrize(
     ("which", "kind", "real"),
     [("hub", "mpc-modes", "float64"), ("plane", "rti-zero", "float32"), ("space", "mpc-links", "float64")],
@@ -85,8 +124,19 @@ def test_the_loop_moves_the_arm_as_python_does(
     def shell(command: str) -> subprocess.CompletedProcess[str]:
         return subprocess.run(command, cwd=tmp_path, shell=True, capture_output=True, text=True, check=False)
 
-    done = shell(f"gcc {STRICT}")
+    name = next(path.stem for path in tmp_path.glob("*.h") if path.stem.endswith(kind.replace("-", "_")))
+    (tmp_path / "probe").mkdir()
+    (tmp_path / "probe" / "probe.c").write_text(PROBE.replace("NAME", name))
+    done = shell(
+        f"{STRICT} example/loop.c *.c plant/*.c daqp/*.c && gcc *.o -lm -o loop && rm loop.o && "
+        f"{STRICT} -I. probe/probe.c && gcc *.o -lm -o probe/probe"
+    )
     assert (done.returncode, done.stderr) == (0, "")
+
+    done = shell("probe/probe")
+    assert done.returncode == 0
+    seen, expected = np.array(done.stdout.split(), float), shown_in_python(bench)
+    assert seen == pytest.approx(expected, abs=1e-7 if real == "float64" else 1e-6, rel=1e-6)
 
     run = shell("./loop 3 free")
     assert (run.returncode, run.stderr) == (0, ""), run.stdout
