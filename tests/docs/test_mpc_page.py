@@ -46,6 +46,7 @@ def test_the_tutorial_from_a_new_scene_to_a_controller_in_c(place: Path) -> None
     assert "beam.bending_stiffness" in shown
     assert (place / "controller.o").is_file()
     assert "time_s,tip_rad" in shown  # the example ran
+    assert "measurement to torque" in shown  # and the loop
     assert (place / "swing.png").read_bytes().startswith(b"\x89PNG")
     fitted = (place / "scenes" / "fitted.toml").read_text()
     stiffness = re.search(r"bending_stiffness = ([0-9.e+-]+)", fitted)

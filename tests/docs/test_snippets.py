@@ -37,7 +37,7 @@ RUN = {
         "simulink": {"console": 1, "c": 2},
         "stm32-zephyr": {"toml": 1, "console": 2, "c": 1},
     },
-    "tests/docs/test_control_arm_page.py": {"control-arm": {"console": 4, "toml": 2, "c": 1}},
+    "tests/docs/test_control_arm_page.py": {"control-arm": {"console": 5, "toml": 2, "c": 1}},
     "tests/docs/test_embedded_page.py": {"embedded": {"console": 1}},
     "tests/docs/test_stability_page.py": {"explain": {"console": 2}, "stability": {"console": 2}},
     "tests/docs/test_export_page.py": {"export": {"console": 3, "python": 2}},

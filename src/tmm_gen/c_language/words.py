@@ -32,7 +32,9 @@ LIBRARY = _words(
     sin cos sqrt fabs floor fma sinf cosf sqrtf fabsf floorf fmaf
     uint8_t uint16_t uint32_t uint64_t UINT32_MAX UINT64_MAX UINT64_C
     printf memcpy memset memcmp strcmp strncpy calloc free
-    clock_gettime CLOCK_THREAD_CPUTIME_ID
+    clock_gettime CLOCK_THREAD_CPUTIME_ID CLOCK_MONOTONIC TIMER_ABSTIME clock_nanosleep EINTR errno
+    SCHED_FIFO sched_setscheduler sched_get_priority_min sched_priority
+    rint ceil fmin memmove strtod strerror fprintf stderr
     """
 )
 """What the emitted sources that use members take from the C library, and what its macros are made of in some library:
@@ -41,7 +43,8 @@ LIBRARY = _words(
 OWN = _words(
     "SAMPLES ROWS STATES OUTPUTS SUBSTEPS END_ROWS LANES ACROSS KINDS STEPS PATTERN PAINTED STACK_POINTER TORQUE "
     "STAGES FUTURE KNOWNS PAST MOTORS TERMS INPUTS UNKNOWNS SENSORS COLUMNS SPAN SQUARES SLOPED WEIGHED DIRECTIONS "
-    "WALLS ANSWERED STEADY BIASES FREE_KNOWNS SHIFT_KNOWNS TORQUES TIMER_CTRL TIMER_RELOAD TIMER_VALUE"
+    "WALLS ANSWERED STEADY BIASES FREE_KNOWNS SHIFT_KNOWNS TORQUES SECONDS PERIOD LATE NEAR "
+    "BINS PULLS TIMER_CTRL TIMER_RELOAD TIMER_VALUE"
 )
 """Macros of the emitted sources themselves, controllers and test programs included."""
 

@@ -132,7 +132,7 @@ def emit(
     if prefix is not None and (fault := scene_name_fault(prefix)):
         raise UserError(f"--name {prefix}: {fault[0]}. {fault[1]}")
     with progress(f"writing {names[0]}"):
-        name, files = emit_controller(bench, names[0], real, prefix)
+        name, files = emit_controller(bench, names[0], real, prefix, real_time=True)
     written = {folder / path: text for path, text in files.items()}
     write_outputs(dict(written), force=force)
     rows: list[dict[str, object]] = [
@@ -143,4 +143,6 @@ def emit(
     table(rows, ["file", Column("bytes", form="d")], json_mode, title=title, more=facts)
     if not json_mode:
         click.echo(f"call {name}_command() once per sample; {folder / (name + '.h')} says how")
-        click.echo(f"try it: cd {shlex.quote(str(folder))} && cc -O2 *.c */*.c -lm && ./a.out")
+        place = shlex.quote(str(folder))
+        click.echo(f"try it: cd {place} && cc -O2 example/example.c *.c daqp/*.c -lm && ./a.out")
+        click.echo(f"in real time: cd {place} && cc -O2 example/loop.c *.c plant/*.c daqp/*.c -lm && ./a.out")

@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arms import arm_of
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.motors import motors_of
-from tmm_gen.control.prediction import fine_scene
+from tmm_gen.control.plant_scene import plant_scene, steps_of_a_sample
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.sensing import Sensing, sites_of
 from tmm_gen.control.target import rest_with
@@ -23,54 +22,8 @@ from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
 
-PLANT_LINKS = 20
-PLANT_INTEGRATOR = "sdirk4"
-SPACE_INTEGRATOR = "sdirk2"
-"""In space; a kernel of more stages takes long to derive and to compile."""
-PLANT_STEP = 1e-3
-"""s; rounded down to a whole fraction of the sample time."""
 SLIP = 5e-3
 """Rate of a hub at which Coulomb friction has reached 76 % of its value, rad/s."""
-
-OUTPUTS: list[dict[str, object]] = [
-    {"name": "hub", "at": "base", "of": "angle"},
-    {"name": "last", "at": "tip", "of": "angle"},
-    {"name": "tip", "at": "tip", "of": "position"},
-    {"name": "tip_acceleration", "at": "tip", "of": "acceleration"},
-    {"name": "root", "at": "base", "of": "torque"},
-]
-"""Of an arm on a hub."""
-
-
-def plant_scene(scene: Scene, condition: Condition) -> Scene:
-    """Return the arm of a condition, finer than the scene's and integrated by another method."""
-    changes: dict[str, object] = {
-        "name": "plant",
-        "output": OUTPUTS if scene.base.turns else _outputs(scene),
-        "integrator.name": PLANT_INTEGRATOR if scene.spatial is None else SPACE_INTEGRATOR,
-        "integrator.step": PLANT_STEP,
-        "control": None,
-        "emit": {"backends": ["c"]},
-    }
-    if condition.gravity:
-        changes["model.gravity"] = arm_of(scene).falling(condition.gravity)
-    return fine_scene(scene.replace(**changes), PLANT_LINKS)
-
-
-def _outputs(scene: Scene) -> list[dict[str, object]]:
-    """Return for each motor of an arm by parts its angle, where and how it stands, and where what it carries ends."""
-    if scene.spatial is not None:  # the kernel's state has all angles
-        return [{"name": f"hub_{name}", "at": name, "of": "angle"} for name in motors_of(scene).names]
-    solid = {part.last: part.name for part in scene.parts if part.kind in ("beam", "link")}
-    found: list[dict[str, object]] = []
-    for motor in motors_of(scene).each:
-        found.append({"name": f"hub_{motor.name}", "at": motor.name, "of": "angle"})
-        if motor.host >= 0:
-            inner = solid[motor.host + 1]
-            found.append({"name": f"root_{motor.name}", "at": inner, "of": "position"})
-            found.append({"name": f"turned_{motor.name}", "at": inner, "of": "angle"})
-        found.append({"name": f"tip_{motor.name}", "at": solid[motor.end], "of": "position"})
-    return found
 
 
 @cache
@@ -104,7 +57,7 @@ class Plant:
         self.problem, self.condition = problem, condition
         self.motors = motors_of(self.scene)
         self.kernel = plant_kernel(self.scene)
-        self.substeps = max(1, int(np.ceil(problem.sample_time / PLANT_STEP - 1e-9)))
+        self.substeps = steps_of_a_sample(problem)
         self.step = problem.sample_time / self.substeps
         self.states: list[dict[str, Any]] = []
         self._late = round((problem.delay + condition.delay) / self.step)

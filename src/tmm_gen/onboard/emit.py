@@ -14,6 +14,7 @@ from tmm_gen.control.where import where
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.example_arm import example_arm
 from tmm_gen.onboard.linear import emit_linear_mpc
+from tmm_gen.onboard.loop_arm import loop_arm
 from tmm_gen.onboard.rti import emit_rti
 
 EMITTED = ("mpc-links", "mpc-modes", "rti-zero", "rti")
@@ -34,7 +35,7 @@ def usual_controller(bench: Bench) -> str:
 
 
 def emit_controller(
-    bench: Bench, controller: str, real: str = "float64", name: str | None = None
+    bench: Bench, controller: str, real: str = "float64", name: str | None = None, real_time: bool = False
 ) -> tuple[str, dict[str, str]]:
     """Write a controller of a scene in C.
 
@@ -48,6 +49,8 @@ def emit_controller(
         Number type.
     name : str, optional
         Prefix of its functions and files, by default those of the scene and of the controller.
+    real_time : bool
+        Whether to write a loop in real time too, with an arm to move, whose kernel takes time to derive in space.
 
     Returns
     -------
@@ -76,16 +79,16 @@ def emit_controller(
             f"--name {name}: is the prefix of {taken[name]}. Take another, such as {name}_control."
         )
     _require_few(bench)
-    arm = example_arm(bench)
+    arm, moved = example_arm(bench), loop_arm(bench) if real_time else None
     title = bench.scene.title
     if controller in ("rti", "rti-zero"):
         made = RealTimeIteration(bench.step, bench.links, bench.inertia, controller == "rti-zero")
         _require_digits(bench, made.prepared, real)
-        return name, emit_rti(name, title, made, arm, real)
+        return name, emit_rti(name, title, made, arm, real, moved)
     model = bench.links if controller == "mpc-links" else bench.modes
     linear = LinearMpc(model, bench.problem, bench.inertia)
     _require_digits(bench, linear.condensed, real)
-    return name, emit_linear_mpc(name, title, linear, arm, real)
+    return name, emit_linear_mpc(name, title, linear, arm, real, moved)
 
 
 def _require_few(bench: Bench) -> None:

@@ -1,4 +1,4 @@
-"""What makes sources a folder that a stranger can compile: how to build it, and a program to begin with."""
+"""What makes sources a folder that a stranger can compile: how to build it, and programs to begin with."""
 
 from __future__ import annotations
 
@@ -6,22 +6,27 @@ from collections.abc import Mapping
 
 from tmm_gen.emit.templates import render
 from tmm_gen.onboard.example_arm import ExampleArm
+from tmm_gen.onboard.loop_arm import LoopArm
+from tmm_gen.onboard.loop_text import LOOP, PLANT, loop_files
 from tmm_gen.onboard.text import ControllerText
 
 EXAMPLE = "example/example.c"
-"""The only source with a ``main``, in a folder of its own, so that the others can be taken all together."""
+"""It has a ``main`` of its own, as all in its folder have."""
 
 CMAKE = "CMakeLists.txt"
 """How to build it."""
 
 
 def library_sources(files: Mapping[str, str]) -> list[str]:
-    """Return the sources of a controller, without its example."""
-    return sorted(path for path in files if path.endswith(".c") and path != EXAMPLE)
+    """Return the sources of a controller, without its examples."""
+    beside = (EXAMPLE, LOOP, f"{PLANT}/")
+    return sorted(path for path in files if path.endswith(".c") and not path.startswith(beside))
 
 
-def complete(mpc: ControllerText, files: Mapping[str, str], arm: ExampleArm) -> dict[str, str]:
-    """Return the files with how to build them and an example.
+def complete(
+    mpc: ControllerText, files: Mapping[str, str], arm: ExampleArm, real_time: LoopArm | None = None
+) -> dict[str, str]:
+    """Return the files with how to build them and examples.
 
     Parameters
     ----------
@@ -31,10 +36,21 @@ def complete(mpc: ControllerText, files: Mapping[str, str], arm: ExampleArm) -> 
         Its sources by path.
     arm : ExampleArm
         What the example controls.
+    real_time : LoopArm, optional
+        What a loop in real time controls; by default there is none.
     """
-    context = {"mpc": mpc, "name": mpc.name, "NAME": mpc.NAME, "sources": library_sources(files), "arm": arm}
+    more = {} if real_time is None else loop_files(mpc, real_time)
+    context = {
+        "mpc": mpc,
+        "name": mpc.name,
+        "NAME": mpc.NAME,
+        "sources": library_sources(files),
+        "arm": arm,
+        "plant_sources": sorted(path for path in more if path.endswith(".c")),
+    }
     return {
         **files,
         EXAMPLE: render("control/example.c.jinja", **context),
+        **more,
         CMAKE: render("control/CMakeLists.txt.jinja", **context),
     }

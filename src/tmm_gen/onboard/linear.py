@@ -9,11 +9,17 @@ from tmm_gen.onboard.example_arm import ExampleArm
 from tmm_gen.onboard.folder import complete
 from tmm_gen.onboard.linear_data import linear_mpc_data
 from tmm_gen.onboard.linear_text import LinearText
+from tmm_gen.onboard.loop_arm import LoopArm
 from tmm_gen.onboard.solver import solver_files
 
 
 def emit_linear_mpc(
-    name: str, title: str, controller: LinearMpc, arm: ExampleArm, real: str = "float64"
+    name: str,
+    title: str,
+    controller: LinearMpc,
+    arm: ExampleArm,
+    real: str = "float64",
+    real_time: LoopArm | None = None,
 ) -> dict[str, str]:
     """Write a linear MPC as C.
 
@@ -29,6 +35,8 @@ def emit_linear_mpc(
         For its example.
     real : {"float64", "float32"}
         Number type.
+    real_time : LoopArm, optional
+        For its loop in real time; by default it has none.
 
     Returns
     -------
@@ -43,4 +51,4 @@ def emit_linear_mpc(
         f"{name}.c": render("control/linear_mpc.c.jinja", **context),
         **solver_files(name, mpc.single),
     }
-    return complete(mpc, files, arm)
+    return complete(mpc, files, arm, real_time)

@@ -13,6 +13,7 @@ from tmm_gen.emit.templates import render
 from tmm_gen.onboard.example_arm import ExampleArm
 from tmm_gen.onboard.folder import complete
 from tmm_gen.onboard.gathering import many_directions
+from tmm_gen.onboard.loop_arm import LoopArm
 from tmm_gen.onboard.rti_data import rti_data
 from tmm_gen.onboard.rti_text import RtiText
 from tmm_gen.onboard.sensing_text import SensingText
@@ -22,7 +23,12 @@ from tmm_gen.program.build import build_program
 
 
 def emit_rti(
-    name: str, title: str, controller: RealTimeIteration, arm: ExampleArm, real: str = "float64"
+    name: str,
+    title: str,
+    controller: RealTimeIteration,
+    arm: ExampleArm,
+    real: str = "float64",
+    real_time: LoopArm | None = None,
 ) -> dict[str, str]:
     """Write a real-time iteration as C.
 
@@ -38,6 +44,8 @@ def emit_rti(
         For its example.
     real : {"float64", "float32"}
         Number type.
+    real_time : LoopArm, optional
+        For its loop in real time; by default it has none.
 
     Returns
     -------
@@ -93,4 +101,4 @@ def emit_rti(
         **short_names(plain.name, kernel_name, kernel),
         **solver_files(name, mpc.single),
     }
-    return complete(mpc, files, arm)
+    return complete(mpc, files, arm, real_time)

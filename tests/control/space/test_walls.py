@@ -9,11 +9,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.closed_loop.compare import compare
-from tmm_gen.closed_loop.plant import plant_scene
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.full_nmpc import FullNmpc
+from tmm_gen.control.plant_scene import plant_scene
 from tmm_gen.control.response import split_outputs
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.target import rest_with
