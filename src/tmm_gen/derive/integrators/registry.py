@@ -70,6 +70,11 @@ def names() -> tuple[str, ...]:
     return tuple(_factories())
 
 
+def all_integrators() -> tuple[Integrator, ...]:
+    """Return every integrator with its default parameters, sorted by name."""
+    return tuple(integrator(name) for name in names())
+
+
 def _factories() -> dict[str, Factory]:
     """Look through the package anew, so that a module added at run time is found too."""
     found: dict[str, Factory] = {}
