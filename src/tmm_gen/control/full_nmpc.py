@@ -80,8 +80,8 @@ class FullNmpc(ModelBased):
         self.model, self.linear, self.solver = model, linear, solver
         if np.any(np.isfinite(model.problem.hub_rate)):
             raise UserError(
-                f"{where(model.scene, 'control.bounds.hub_rate')}: the controller 'nmpc' keeps it "
-                "not; take 'rti', or remove the key."
+                f"{where(model.scene, 'control.bounds.hub_rate')}: the controller 'nmpc' does not keep "
+                "it; take 'rti', or remove the key."
             )
         self._guess: Array | None = None
         super().__init__(model.problem, ExtendedKalmanFilter(model, linear), model.delay, inertia)

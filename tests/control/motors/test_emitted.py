@@ -165,7 +165,7 @@ def test_a_reference_that_moves_is_that_of_python(
         if k >= 2:
             wanted = np.array([0.5, -0.3]) if k == 2 else wanted + np.array([0.01, -0.02])
             assert emitted.aim(wanted) is python.aim(wanted) is Status.OK
-        far = [0.5 + 22.0 * np.pi, -0.3]  # the same place eleven turns on
+        far = [0.5 + 204.0 * np.pi, -0.3]  # the same place a hundred and two turns on
         for reference, status in (
             ([np.nan, 0.0], Status.NOT_FINITE),
             ([0.0, 0.0], Status.INFEASIBLE),

@@ -148,7 +148,9 @@ def test_plans_keep_bounds_of_how_fast_joints_turn(walled: Bench) -> None:
         peaks.append(np.max(np.abs(along.hub_rate), axis=1))
     assert_allclose(peaks[0], 2.0, atol=2e-3)  # softly
     assert np.all(peaks[1] > 2.7)
-    with pytest.raises(UserError, match=r"'nmpc' keeps no control\.bounds\.hub_rate"):
+    with pytest.raises(
+        UserError, match=r"control\.bounds\.hub_rate: the controller 'nmpc' does not keep it; take"
+    ):
         FullNmpc(walled.step, walled.links, walled.inertia)
 
 
