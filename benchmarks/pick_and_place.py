@@ -1,6 +1,6 @@
 """Pick and place with the arm of two motors: how its end trembles at stops, by controller, with payloads told or not.
 
-    python benchmarks/pick_and_place.py [--evaluations 48] [--loops 5] [--out out/bench] [--update]
+    python benchmarks/pick_and_place.py [--evaluations 72] [--loops 12] [--out out/bench] [--update]
 
 The gripper (0.1 kg) fetches one object and then another from below and lays them down above, along quintics. Where it
 goes next nobody knows before it sets off; weights come on the arm at that moment, and leave it likewise. Each
@@ -51,9 +51,9 @@ SCENE = ROOT / "scenes" / "elbow.toml"
 PAGE = ROOT / "docs" / "mpc.md"
 GRIPPER = 0.1
 """kg."""
-TUNED_ON = (0.1, 0.3)
 LIGHTEST, HEAVIEST = 0.05, 0.35
 """Objects, kg."""
+TUNED_ON = ((LIGHTEST, HEAVIEST), (HEAVIEST, LIGHTEST))
 BELOW, ABOVE = {"shoulder": 0.0, "elbow": -1.0}, {"shoulder": 0.7, "elbow": -0.4}
 """Joint angles, rad."""
 DURATION, DWELL = 1.0, 0.6
@@ -61,7 +61,10 @@ DURATION, DWELL = 1.0, 0.6
 TREMBLES, OFF = 1.0, 5.0
 """What is aimed at: by how much the end may tremble at a stop, and how far it may be off, mm."""
 DECADES = (1.0, 0.3)
-"""How far up and down each number is searched: in half of the loops from the scene's, then from the best of these."""
+"""How far up and down each number is searched: a third of the tries each about two beginnings, then about the best."""
+LOOSELY = {"hub": 0.1, "tip_rate": 0.1, "disturbance": 0.3}
+"""Factors of the second beginning, of what a controller has: hubs that may make up for beams that bend, and less noise
+in its torques. The first beginning is what the scene says, which was found for steps of the reference."""
 
 
 @dataclass(frozen=True)
@@ -72,6 +75,17 @@ class Row:
     controller: str
     knobs: tuple[str, ...]
     told: bool = False
+
+    @property
+    def beginnings(self) -> tuple[np.ndarray, np.ndarray]:
+        """Factors of the numbers about which the search begins."""
+        loosely = [LOOSELY.get(knob.rpartition(".")[2], 1.0) for knob in self.knobs]
+        return np.ones(self.count), np.ones(self.count) if self.knobs is OF_PD else np.array(loosely)
+
+    @property
+    def count(self) -> int:
+        """How many numbers are searched."""
+        return 2 * len(self.knobs) if self.knobs is OF_PD else len(self.knobs)
 
 
 OF_PD = ("proportional", "derivative")
@@ -112,9 +126,8 @@ def task() -> Scene:
     return load_scene(SCENE).replace(**{"control.trajectory": {"pose": poses}, "control.reference": middle})
 
 
-def turned(scene: Scene, row: Row, places: np.ndarray, decades: float) -> Scene:
-    """Return the scene with a controller's numbers multiplied, for places in a cube whose middle changes nothing."""
-    factors = 10.0 ** (decades * (2.0 * places - 1.0))
+def turned(scene: Scene, row: Row, factors: np.ndarray) -> Scene:
+    """Return the scene with a controller's numbers multiplied."""
     assert scene.control is not None
     names = ("shoulder", "elbow")
     if row.knobs is OF_PD:
@@ -130,11 +143,6 @@ def turned(scene: Scene, row: Row, places: np.ndarray, decades: float) -> Scene:
         each = np.array(by_names(value, names)) * factor
         changes[key] = dict(zip(names, each.tolist(), strict=True))
     return scene.replace(**changes)
-
-
-def dimensions(row: Row) -> int:
-    """Return how many numbers are searched."""
-    return 4 if row.knobs is OF_PD else len(row.knobs)
 
 
 def loop(bench: Bench, controller: Controller, row: Row, objects: Sequence[float], seed: int) -> Figures:
@@ -190,29 +198,27 @@ def quickly_made(bench: Bench, controller: str) -> Controller:
 
 def tuned(bench: Bench, row: Row, evaluations: int) -> tuple[Scene, float]:
     """Return the scene with the best numbers found for a controller, its own among them, and their price."""
-    best = (math.inf, bench.scene)
+    best = (math.inf, tuple(np.ones(row.count)))
 
-    def prices(points: Sequence[np.ndarray], about: Scene, decades: float) -> list[float]:
+    def prices(points: Sequence[np.ndarray], about: np.ndarray, decades: float) -> list[float]:
         nonlocal best
         found = []
         for places in points:
-            scene = turned(about, row, places, decades)
-            tried = bench.retuned(scene)
-            found.append(loop(tried, quickly_made(tried, row.controller), row, TUNED_ON, seed=0).price)
-            best = min(best, (found[-1], scene), key=lambda each: each[0])
+            factors = about * 10.0 ** (decades * (2.0 * places - 1.0))
+            tried = bench.retuned(turned(bench.scene, row, factors))
+            controller = quickly_made(tried, row.controller)
+            runs = [loop(tried, controller, row, objects, seed) for seed, objects in enumerate(TUNED_ON)]
+            found.append(max(run.price for run in runs))
+            best = min(best, (found[-1], tuple(factors)))
         return found
 
-    wide, near = DECADES
-    middle = np.full(dimensions(row), 0.5)
-    prices([middle], bench.scene, wide)
-    search_widely(
-        lambda points, _: prices(points, bench.scene, wide), len(middle), evaluations // 2 - 1, seed=0
-    )
-    about = best[1]
-    search_nearby(
-        lambda points, _: prices(points, about, near), [middle], evaluations - evaluations // 2, seed=0
-    )
-    return best[1], best[0]
+    (wide, near), middle, each = DECADES, np.full(row.count, 0.5), evaluations // 3
+    for seed, about in enumerate(row.beginnings):
+        prices([middle], about, wide)
+        search_widely(lambda points, _, about=about: prices(points, about, wide), row.count, each - 1, seed)
+    about = np.array(best[1])
+    search_nearby(lambda points, _: prices(points, about, near), [middle], evaluations - 2 * each, seed=0)
+    return turned(bench.scene, row, np.array(best[1])), best[0]
 
 
 def judged(bench: Bench, row: Row, loops: int) -> list[Figures]:
@@ -266,8 +272,8 @@ def section(rows: Sequence[dict[str, object]]) -> str:
 def main() -> None:
     """Run, print and keep."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--evaluations", type=int, default=48, help="loops of each search")
-    parser.add_argument("--loops", type=int, default=5, help="that judge a controller")
+    parser.add_argument("--evaluations", type=int, default=72, help="numbers tried in each search")
+    parser.add_argument("--loops", type=int, default=12, help="that judge a controller")
     parser.add_argument("--out", type=Path, default=Path("out/bench"))
     parser.add_argument("--update", action="store_true", help=f"renew {PAGE.name}")
     given = parser.parse_args()

@@ -68,6 +68,9 @@ class Following:
     def wanted(self, window: Window, now: int, ahead: int, horizon: int, end: Array, goal: Goal) -> Wanted:
         """Return what is wanted over a horizon, as if the window went through a goal now.
 
+        Beams sag as at rest; accelerations only count in the torques. See :func:`~tmm_gen.control.pose.pose_in` for
+        the reason.
+
         Parameters
         ----------
         window : Window
@@ -86,7 +89,7 @@ class Following:
         model, (by_motion, torque_by) = self.model, self.terms
         motions = np.stack([window.at(now + ahead + i) for i in range(horizon)], axis=-1)
         motions[0] -= window.at(now)[0][:, None]
-        states = np.einsum("ksm,kmi->si", by_motion, motions)
+        states = np.einsum("ksm,kmi->si", by_motion[:2], motions[:2])
         torques = np.einsum("kjm,kmi->ji", torque_by, motions)
         return Wanted(
             tip=goal.tip[:, None] + model.tip @ states,

@@ -1,4 +1,4 @@
-"""The arm in motion as a rigid one would move: its shape and the torques of its motors, by one step of the kernel."""
+"""What is wanted of an arm in motion: its end where it would be at rest, and the torques that takes."""
 
 from __future__ import annotations
 
@@ -34,11 +34,15 @@ class Pose:
 
 
 def pose_in(model: StepModel, motion: Array, near: Pose) -> Pose | None:
-    """Return the pose whose hubs have a motion, and whose links gain the rates that they would if nothing bent.
+    """Return what is wanted where hubs have a motion: beams that sag as at rest, and the torques of the motion.
 
-    Newton's method on the tangents of the kernel's step, as the emitted C has it: all links turn as the hubs' rates
-    have it, and after a step with the torques they have gained what the hubs' accelerations make; how beams sag, and
-    which torques that takes, are the unknowns.
+    The arm's end is then wanted where it would be if everything moved slowly, and the hubs may leave their reference to
+    make up for beams that bend as the arm accelerates. If beams were wanted bent as they are when the hubs keep to
+    their reference, the end would have to swing with them and to stop at once when the hubs do, which it cannot.
+
+    Newton's method on the tangents of the kernel's step, as in the emitted C: first for angles and torques at which the
+    arm gains no rates in a step; then one iteration for the torques that give the links the accelerations of a rigid
+    arm.
 
     Parameters
     ----------
@@ -53,32 +57,46 @@ def pose_in(model: StepModel, motion: Array, near: Pose) -> Pose | None:
         None where there is none.
     """
     motors = model.motors
-    size, count = len(motors.lengths), motors.count
-    places = {name: model.places(name) for name in ("angle", "rate")}
-    step = model.problem.step
-    rate, growth = (motors.turned @ each for each in motion[1:])
-    angles = near.state[places["angle"]]
+    angles = near.state[model.places("angle")]
     angles = angles + motors.turned @ (motion[0] - motors.hub @ angles)
-    state, torque = np.zeros(model.size), near.torque
-    state[places["rate"]] = rate
-    if model.accelerations:
-        state[model.places("acceleration")] = growth
-    slope = np.zeros((size + count, size + count))
-    slope[size:, :size] = motors.hub
+    none = np.zeros(len(motors.lengths))
+    rate, growth = (motors.turned @ each for each in motion[1:])
+    state, torque = _state(model, angles, none, none), near.torque
     for _ in range(TURNS):
-        state[places["angle"]] = angles
-        after, by_state, by_torque = model.step_slopes(state, torque)
-        slope[:size, :size] = by_state[np.ix_(places["rate"], places["angle"])]
-        slope[:size, size:] = by_torque[places["rate"]]
-        left = np.concatenate([rate + step * growth - after[places["rate"]], motion[0] - motors.hub @ angles])
-        try:
-            change = np.linalg.solve(slope, left)
-        except np.linalg.LinAlgError:
+        change = _towards(model, state, torque, motion[0], none)
+        if change is None:
             return None
-        angles, torque = angles + change[:size], torque + change[size:]
-        if not np.all(np.isfinite(change)):
-            return None
+        state[model.places("angle")] += change[: len(none)]
+        torque = torque + change[len(none) :]
         if np.max(np.abs(change)) < TOLERANCE:
-            state[places["angle"]] = angles
-            return Pose(state, torque)
-    return None
+            break
+    else:
+        return None
+    moving = _state(model, state[model.places("angle")], rate, growth)
+    change = _towards(model, moving, torque, motion[0], growth)
+    return None if change is None else Pose(moving, torque + change[len(none) :])
+
+
+def _state(model: StepModel, angles: Array, rates: Array, accelerations: Array) -> Array:
+    """Return a state of the kernel, (s,)."""
+    state = np.zeros(model.size)
+    state[model.places("angle")], state[model.places("rate")] = angles, rates
+    if model.accelerations:
+        state[model.places("acceleration")] = accelerations
+    return state
+
+
+def _towards(model: StepModel, state: Array, torque: Array, hub: Array, growth: Array) -> Array | None:
+    """Return the changes of angles and torques after which rates grow as told, (d + m,); None where there are none."""
+    motors, angle, rate = model.motors, model.places("angle"), model.places("rate")
+    size, count = len(motors.lengths), motors.count
+    after, by_state, by_torque = model.step_slopes(state, torque)
+    slope = np.zeros((size + count, size + count))
+    slope[:size, :size], slope[:size, size:] = by_state[np.ix_(rate, angle)], by_torque[rate]
+    slope[size:, :size] = motors.hub
+    gained = state[rate] + model.problem.step * growth - after[rate]
+    try:
+        change = np.linalg.solve(slope, np.concatenate([gained, hub - motors.hub @ state[angle]]))
+    except np.linalg.LinAlgError:
+        return None
+    return change if np.all(np.isfinite(change)) else None

@@ -33,7 +33,9 @@ def pull_of(controller: LinearMpc) -> Pull:
     """Return the tables of a controller."""
     model, slopes, problem = controller.model, controller.response.slopes, controller.problem
     count, horizon, weights = problem.count, problem.horizon, problem.weights
-    states, torques = (np.concatenate([*each], axis=1) for each in controller.following.terms)
+    by_motion, by_torque = controller.following.terms
+    states = np.concatenate([by_motion[0], by_motion[1], np.zeros_like(by_motion[2])], axis=1)
+    torques = np.concatenate([*by_torque], axis=1)
     weighed = [
         (name, motor, float(getattr(weights, name)[motor]))
         for name in OUTPUTS

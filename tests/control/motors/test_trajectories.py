@@ -18,6 +18,7 @@ from tmm_gen.control.following import Following
 from tmm_gen.control.plane_frame import PlaneFrame
 from tmm_gen.control.pose import Pose, pose_in
 from tmm_gen.control.target import rest_with
+from tmm_gen.control.terms import Wanted
 from tmm_gen.control.window import Window
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.emit import usual_controller
@@ -139,6 +140,30 @@ def test_torques_of_a_motion_are_those_of_lagrange(small: Scene) -> None:
     assert rest is not None
     assert_allclose(rest.torque, target.goal.torque, atol=1e-8)
     assert_allclose(rest.state[: len(target.angles)], target.angles, atol=1e-8)
+
+
+def test_the_end_of_an_arm_in_motion_is_wanted_where_it_would_be_at_rest(lowered: Bench) -> None:
+    """Predicted by links along the kernel as by the linear model: no beam is wanted to swing."""
+    motion = np.array([[0.3, -0.8], [1.2, -2.0], [3.0, 5.0]])
+    model = lowered.step
+    found = pose_in(model, motion, Pose(model.initial(), model.start.torque))
+    target = rest_with(model.scene, motion[0], "here")
+    assert found is not None
+    assert_allclose(found.state[model.places("angle")], target.angles, atol=1e-8)
+    assert_allclose(found.state[model.places("rate")], model.motors.turned @ motion[1], rtol=1e-12)
+
+    linear, horizon = lowered.links, 5
+    following = Following(linear, lowered.problem.sample_time)
+
+    def wanted(growth: np.ndarray) -> Wanted:
+        motions = [np.tile(each, (horizon, 1)) for each in (linear.goal.hub, motion[1], growth)]
+        end = np.zeros((1, linear.size + linear.count))
+        return following.wanted(Window(np.array(motions)), 0, 0, horizon, end, linear.goal)
+
+    evenly, growing = wanted(np.zeros(2)), wanted(motion[2])
+    for name in ("tip", "tip_rate", "hub", "hub_rate"):
+        assert_allclose(getattr(growing, name), getattr(evenly, name), rtol=1e-12)
+    assert np.all(np.abs(growing.torque - evenly.torque) > 1e-3)
 
 
 def test_a_linear_model_stays_on_the_motion_it_is_told(lowered: Bench) -> None:
