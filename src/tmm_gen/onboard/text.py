@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -10,16 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tmm_gen.c_language.real import Real
-from tmm_gen.c_language.wrap import WIDTH
 from tmm_gen.control.condensed import BEYOND
 from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE, PROOF
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.onboard.controller_data import ControllerData
+from tmm_gen.onboard.head import head
 from tmm_gen.onboard.program_data import INFINITE
 from tmm_gen.onboard.sensor_words import sensor_words
 from tmm_gen.onboard.tables import number, table
 from tmm_gen.onboard.tolerances import TOLERANCES, Tolerances
-from tmm_gen.version import __version__
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,16 +191,6 @@ class ControllerText:
         return ", ".join(sensor_words(self.problem.motors, i)[1] for i in self.data.sensors)
 
     @property
-    def _torques(self) -> str:
-        """The bounds of the torques, in words."""
-        told = [f"{low:g} to {high:g} N m" for low, high in zip(*self.problem.torque, strict=True)]
-        if self.problem.motors.on_hub:
-            return f"torque: {told[0]}"
-        return "torques: " + ", ".join(
-            f"{name} {each}" for name, each in zip(self.problem.motors.names, told, strict=True)
-        )
-
-    @property
     def changes(self) -> NDArray[np.float64]:
         """Largest changes of the torques in a sample, (m,), N m; infinite as the solver has it."""
         return np.minimum(self.problem.torque_rate * self.problem.sample_time, INFINITE)
@@ -284,21 +272,15 @@ class ControllerText:
         return table(name, values, dimension, self.real)
 
     def comment(self, lead: str) -> str:
-        """Return the head of a file."""
-        problem = self.problem
-        lines = [
+        """Return the head of a file, each line after a lead."""
+        told = f"{self.horizon} samples of {self.problem.sample_time:g} s, {self.data.size} states, "
+        return head(
             f"{self.name}: {self.title}",
-            "",
-            f"Written by tmm-gen {__version__}. Do not edit: change the scene and run `tmm-gen mpc --emit`.",
-            "",
-            f"controller: {self.kind}; {self.horizon} samples of {problem.sample_time:g} s, {self.data.size} states, "
-            f"{self.bounds} bounds and rows",
-            f"delay: {problem.delay:g} s, {self._torques}",
-            f"number type: {self.real.c}",
-            "quadratic programs: DAQP (MIT licence), in daqp/",
-        ]
-        wrapped = [part for line in lines for part in (textwrap.wrap(line, WIDTH - len(lead) - 1) or [""])]
-        return "\n".join(f"{lead} {line}".rstrip() for line in wrapped)
+            f"controller: {self.kind}; {told}{self.bounds} bounds and rows",
+            self.problem,
+            self.real,
+            lead,
+        )
 
 
 def macro_prefix(name: str) -> str:
