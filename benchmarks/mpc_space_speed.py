@@ -99,7 +99,15 @@ def derivatives(stage: Stage, seen: Record) -> float:
     return float(np.median(seconds))
 
 
-def measure(joints: int, walled: bool, names: Sequence[str], most: int, advance: Callable[..., None]) -> Rows:
+def measure(
+    joints: int,
+    walled: bool,
+    names: Sequence[str],
+    most: int,
+    advance: Callable[..., None],
+    judged: bool = True,
+    **changes: object,
+) -> Rows:
     """Return a row for each solver.
 
     Parameters
@@ -114,11 +122,17 @@ def measure(joints: int, walled: bool, names: Sequence[str], most: int, advance:
         Samples to give them at most.
     advance : callable
         Of a progress bar that goes one for these joints.
+    judged : bool
+        Whether torques are compared with an iteration that converges, which takes long with long horizons; else with
+        those of `rti`.
+    changes
+        Of the scene, by their paths.
     """
-    bench = Bench.of(arm_in_space(CELLS[joints], walled))
+    bench = Bench.of(arm_in_space(CELLS[joints], walled, **changes))
     made = {kind: emitted(bench, kind) for kind in KINDS}
     seen = record(bench, made["rti"], DURATION)
-    wanted, stage = right(bench, seen), Stage(Motion(bench), apart=True)
+    wanted = right(bench, seen) if judged else seen.torques
+    stage = Stage(Motion(bench), apart=True)
 
     def own() -> dict[str, tuple[np.ndarray, np.ndarray]]:
         return {kind: time_emitted(controller, seen, REPEATS) for kind, controller in made.items()}

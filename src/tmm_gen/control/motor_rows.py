@@ -1,6 +1,7 @@
 """What turns an arm: its motors, what each of them carries, and the rows that give their angles.
 
-Every motor has a *hub*, what it turns against what carries it, and a *tip*, the outer end of what it carries up to the
+Every motor has a *hub*, what it turns against what carries it as its encoder sees it (behind an elastic gear where the
+encoder is at the output), and a *tip*, the outer end of what it carries up to the
 next motor. Both angles are linear in those of the arm: the hub's is that of the motor's joint, the tip's the
 length-weighted mean of the links' angles against what carries the motor, which differs from that of the chord by the
 third power of the bending. An arm on a hub has one motor, the hub itself.
@@ -36,6 +37,8 @@ class Motor:
         Behind the last of the angles of the links it carries up to the next motor.
     gear : float
         Its torque acts so many times at the joint.
+    hub : tuple of int
+        Which angles add up to the hub's, less that of the host: those up to where its encoder is.
     """
 
     name: str
@@ -44,6 +47,7 @@ class Motor:
     host: int
     end: int
     gear: float
+    hub: tuple[int, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +88,7 @@ class Motors:
         """Rows that give the hubs' angles, (m, d)."""
         found = np.zeros((self.count, len(self.lengths)))
         for row, motor in zip(found, self.each, strict=True):
-            row[motor.place] = 1.0
+            row[list(motor.hub)] = 1.0
             if motor.host >= 0:
                 row[motor.host] = -1.0
         return found

@@ -21,6 +21,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.encoders import behind_gears
 from tmm_gen.control.motor_rows import Motor, Motors
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.still import Still
@@ -71,7 +72,9 @@ class SpaceMotors(Motors):
     @cached_property
     def turned(self) -> Array:
         """What the angles grow by where a hub turns by 1 rad and nothing bends, (d, m)."""
-        return self.hub.T
+        found = np.zeros((len(self.lengths), self.count))
+        found[[motor.place for motor in self.each], range(self.count)] = 1.0
+        return found
 
     def inertia(self, mass: Array) -> Array:
         """Return what each motor would turn if nothing bent and no other turned, (m,), by its own torque, kg m^2."""
@@ -94,10 +97,7 @@ def space_motors(scene: Scene, reference: Array | None = None) -> SpaceMotors:
     arm = scene.spatial
     assert arm is not None
     acting = {item.joint: item.name for item in arm.inputs if item.acts == "torque"}
-    each = tuple(
-        Motor(arm.joints[k - 1].name, acting[k], place=k - 1, host=-1, end=k, gear=arm.joints[k - 1].gear)
-        for k in sorted(acting)
-    )
+    each = tuple(_motor(scene, k, acting[k]) for k in sorted(acting))
     places = [motor.place for motor in each]
     if reference is None and scene.control is not None:
         reference = np.array(by_names(scene.control.reference, tuple(motor.name for motor in each)))
@@ -120,6 +120,17 @@ def space_motors(scene: Scene, reference: Array | None = None) -> SpaceMotors:
         ends[-1] = Tip(tip, still.facing[tip.joint - 1] @ own / np.linalg.norm(own))
     lengths = np.array([math.hypot(*joint.at) for joint in arm.joints])
     return SpaceMotors(each, lengths, on_hub=False, rows=rows, ends=tuple(ends))
+
+
+def _motor(scene: Scene, number: int, input_name: str) -> Motor:
+    """Return the motor that turns a joint, counted from 1."""
+    arm = scene.spatial
+    assert arm is not None
+    joint = arm.joints[number - 1]
+    hub: tuple[int, ...] = (number - 1,)
+    if joint.name in behind_gears(scene):  # the spring of the gear is a joint of its own, at the motor's outer end
+        hub += (next(frame.joint for frame in arm.frames if frame.name == joint.name) - 1,)
+    return Motor(joint.name, input_name, place=number - 1, host=-1, end=number, gear=joint.gear, hub=hub)
 
 
 def motor_ends(scene: Scene, reference: Mapping[int, float]) -> MotorEnds:

@@ -201,9 +201,9 @@ class RtiText(WallText):
             stations = f"{macros(self.model)}_STATIONS"
             plain = {"hub": f"{state}hub_angle", "hub_rate": f"{state}hub_rate"}
             return plain.get(name, f"dot(lengths, {values}, {stations})")
-        place, inner = motor.place, f" - {values}[{motor.host}]" if motor.host >= 0 else ""
+        inner = f" - {values}[{motor.host}]" if motor.host >= 0 else ""
         if name.startswith("hub"):
-            return f"{values}[{place}]{inner}"
+            return " + ".join(f"{values}[{place}]" for place in motor.hub) + inner
         weights, start, stop = self.spread(output[1])
         return f"dot(&{weights}[{start}], &{values}[{start}], {stop - start}){inner}"
 
@@ -288,6 +288,16 @@ class RtiText(WallText):
     def outer(self) -> str:
         """Where each motor's outer link is, a list."""
         return ", ".join(str(motor.place) for motor in self.problem_motors)
+
+    @property
+    def encoders_behind(self) -> bool:
+        """Whether an encoder is behind the spring of an elastic gear."""
+        return any(motor.hub != (motor.place,) for motor in self.problem_motors)
+
+    @property
+    def encoder_at(self) -> str:
+        """Where each motor's encoder is, a list."""
+        return ", ".join(str(motor.hub[-1]) for motor in self.problem_motors)
 
     def acting(self, two: bool) -> str:
         """Declare the torques that act in a sample, one pair after the other or the same throughout."""

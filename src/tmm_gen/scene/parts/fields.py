@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -42,6 +42,12 @@ MotorDamping = Annotated[
 GearDamping = Annotated[
     NonNegative,
     Field(description="damping of the gear's spring over its stiffness in s", examples=["0.001"]),
+]
+EncoderSide = Annotated[
+    Literal["rotor", "output"],
+    Field(
+        description="side of an elastic gear at which control has the motor's encoder", examples=['"output"']
+    ),
 ]
 BeamDamping = Annotated[
     NonNegative, Field(description="damping of a spring over its stiffness in s", examples=["0.002"])

@@ -10,6 +10,7 @@ from tmm_gen.scene.beam import Springs
 from tmm_gen.scene.identifier import Name
 from tmm_gen.scene.parts.fields import (
     BeamDamping,
+    EncoderSide,
     Gear,
     GearDamping,
     GearStiffness,
@@ -91,6 +92,8 @@ class MotorPart(Part):
         Of the rotor against what the motor is mounted on, on the motor's side, N m s/rad.
     damping_time : float
         Damping of the gear's spring over its stiffness, s.
+    encoder : "rotor" or "output"
+        On which side of an elastic gear control measures the joint's angle, which is also what its reference means.
     """
 
     rotor_inertia: RotorInertia = 0.0
@@ -99,6 +102,7 @@ class MotorPart(Part):
     stiffness: GearStiffness = None
     motor_damping: MotorDamping = 0.0
     damping_time: GearDamping = 0.0
+    encoder: EncoderSide = "rotor"
 
 
 class JointPart(Part):

@@ -32,6 +32,13 @@ def chain_suits(document: ChainDocument) -> Iterator[Finding]:
                     f"Remove it, and put a [[gear]] with `ratio` and `stiffness` on '{motor.name}'.",
                     getattr(motor, key),
                 )
+        if motor.encoder != "rotor":
+            yield Finding(
+                ("motor", index, "encoder"),
+                "is for control, which is of planar arms and of arms in space",
+                "Remove the key.",
+                motor.encoder,
+            )
     if document.control is not None:
         yield Finding(("control",), "is for planar arms", "Remove the table.")
     if document.gear and document.model.sweep == "product":

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from tmm_gen.scene.parts.fields import (
     BeamDamping,
+    EncoderSide,
     Gear,
     GearDamping,
     GearStiffness,
@@ -90,6 +91,8 @@ class SpatialMotor(TurningPart):
         Of the rotor against what the motor is mounted on, on the motor's side, N m s/rad.
     damping_time : float
         Damping of the gear's spring over its stiffness, s.
+    encoder : "rotor" or "output"
+        On which side of an elastic gear control measures the joint's angle, which is also what its reference means.
     """
 
     rotor_inertia: RotorInertia = 0.0
@@ -97,6 +100,7 @@ class SpatialMotor(TurningPart):
     stiffness: GearStiffness = None
     motor_damping: MotorDamping = 0.0
     damping_time: GearDamping = 0.0
+    encoder: EncoderSide = "rotor"
 
 
 class SpatialJoint(TurningPart):
