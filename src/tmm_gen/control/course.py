@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.reach import rest_with_frame
+from tmm_gen.control.reach import Somewhere, rest_with_frame
 from tmm_gen.control.target import Target, require_within, rest_with
 from tmm_gen.control.where import where
 from tmm_gen.errors import UserError
@@ -83,7 +83,9 @@ def _quintics(scene: Scene, problem: ControlProblem, way: Trajectory) -> Iterato
         else:
             assert pose.frame is not None
             assert pose.position is not None
-            target = _reached(scene, problem, pose.frame, np.array(pose.position), begin, f"{key}.position")
+            facing = None if pose.orientation is None else np.array(pose.orientation)
+            there = Somewhere(pose.frame, np.array(pose.position), facing)
+            target = _reached(scene, problem, there, begin, f"{key}.position")
         end = now + pose.duration + pose.dwell
         count = int(np.ceil(end / problem.sample_time - 1e-9)) - sample
         last = number == len(way.pose)
@@ -113,19 +115,17 @@ def _from_file(scene: Scene, problem: ControlProblem, way: Trajectory, path: Pat
     angles, before = np.zeros((len(told), problem.count)), problem.start
     for row, position, now in zip(angles, told, instants, strict=True):
         key = f"{path.name}, t = {now:g} s"
-        before = row[:] = _reached(scene, problem, way.frame, position, before, key).goal.hub
+        before = row[:] = _reached(scene, problem, Somewhere(way.frame, position), before, key).goal.hub
     return Course(angles)
 
 
-def _reached(
-    scene: Scene, problem: ControlProblem, frame: str, position: Array, before: Array, key: str
-) -> Target:
+def _reached(scene: Scene, problem: ControlProblem, there: Somewhere, before: Array, key: str) -> Target:
     """Return the rest with a part somewhere, bent as before or else as at the scene's reference."""
     starts = [before, problem.reference]
     # a stretched arm could bend either way: as at the reference
     if np.max(np.abs(before - problem.start)) == 0.0:
         starts.reverse()
-    target = rest_with_frame(scene, frame, position, starts, key)
+    target = rest_with_frame(scene, there, starts, key)
     _require_room(scene, problem, target, key)
     return target
 

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from tmm_gen.reference.spatial_places import Tree, cross
 from tmm_gen.scene.spatial.arm import Frame, SpatialArm
@@ -53,3 +54,18 @@ class SpaceFrame:
         lever = places.frame(self.frame)[1][..., None, :] - places.point
         moved = cross(places.axis, lever) * self._tree.ways[self.frame.joint - 1][:, None]
         return np.asarray(np.swapaxes(moved, -1, -2), float)
+
+    def turn_to(self, angles: Array, orientation: Array) -> Array:
+        """Return about what, and by how much, it is to turn to stand like a quaternion (w, x, y, z), (3,), rad.
+
+        In the axes of the world, the shorter way round.
+        """
+        w, x, y, z = orientation
+        wanted = Rotation.from_quat([x, y, z, w])
+        turned = Rotation.from_matrix(self._tree.places(angles).frame(self.frame)[0])
+        return np.asarray((wanted * turned.inv()).as_rotvec(), float)
+
+    def turns(self, angles: Array) -> Array:
+        """Return how it turns in the axes of the world as each joint does, (3, d)."""
+        ways = self._tree.ways[self.frame.joint - 1]
+        return np.asarray((self._tree.places(angles).axis * ways[:, None]).T, float)

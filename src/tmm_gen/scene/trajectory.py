@@ -18,6 +18,21 @@ def _place(value: object) -> tuple[float, ...]:
     raise fault("must be a place", "Write for example `[0.5, -0.2]`, and in space `[0.5, -0.2, 0.3]`.")
 
 
+def _orientation(value: object) -> tuple[float, ...]:
+    """Return an angle in a plane, ``(angle,)``, or in space the quaternion ``(w, x, y, z)``."""
+    if is_finite_number(value):
+        return (float(value),)
+    numbers = value if isinstance(value, list | tuple) else ()
+    if len(numbers) in (1, 4) and all(is_finite_number(number) for number in numbers):
+        if len(numbers) == 1 or any(numbers):
+            return tuple(float(number) for number in numbers)
+        raise fault("is no quaternion: one number must be other than 0", "Write for example `[1, 0, 0, 0]`.")
+    raise fault(
+        "must be an angle in rad, or in space a quaternion",
+        "Write for example `0.5`, and in space `[1.0, 0.0, 0.0, 0.0]`: w, x, y, z.",
+    )
+
+
 def _direction(value: object) -> tuple[float, ...]:
     """Return a direction in a plane or in space, of any length but none."""
     numbers = value if isinstance(value, list | tuple) else ()
@@ -28,6 +43,7 @@ def _direction(value: object) -> tuple[float, ...]:
     return tuple(float(number) for number in numbers)
 
 
+Orientation = Annotated[tuple[float, ...], PlainValidator(_orientation)]
 Place = Annotated[tuple[float, ...], PlainValidator(_place)]
 Direction = Annotated[tuple[float, ...], PlainValidator(_direction)]
 EachAngle = Annotated[Each[float], PlainValidator(OneOrEach(Finite))]
@@ -44,6 +60,8 @@ class PoseEntry(Table):
         Name of a part, whose outer end, at rest, is to be at ``position``.
     position : (x, y), in space (x, y, z), optional
         m.
+    orientation : float, in space (w, x, y, z), optional
+        Of that end: its angle from the x axis, rad; in space a quaternion of any length, as outputs show it.
     duration : float
         Of the way there, a quintic, s.
     dwell : float
@@ -56,6 +74,11 @@ class PoseEntry(Table):
     frame: str | None = Field(default=None, description="part to be somewhere", examples=['"payload"'])
     position: Place | None = Field(
         default=None, description="where its outer end is to be in m", examples=["[0.5, -0.2]"]
+    )
+    orientation: Orientation | None = Field(
+        default=None,
+        description="how that end is to stand: an angle in rad, in space a quaternion",
+        examples=["0.5", "[0.7, 0.0, 0.7, 0.0]"],
     )
     duration: Positive = Field(description="of the way there in s", examples=["0.8"])
     dwell: NonNegative = Field(default=0.0, description="of the rest there in s", examples=["0.4"])

@@ -86,6 +86,35 @@ def test_a_file_tells_joints_or_positions(small: Scene, tmp_path: Path) -> None:
     assert_allclose(found[1][4:], found[0][4:], atol=3e-3)  # cubic in between, of other curves
 
 
+def test_a_part_stands_as_told(small: Scene) -> None:
+    """With a third motor, at the end of the forearm: where the outer link rests by all joints, a turn on as well."""
+    text = small.source.data
+    wrist = {"name": "wrist", "on": "forearm", "rotor_inertia": 1e-6, "gear": 50}
+    hand = {"name": "hand", "on": "wrist", "length": 0.1, "mass": 0.1, "inertia": 1e-4}
+    scene = small.replace(
+        **{
+            "motor": [*text["motor"], wrist],
+            "link": [hand],
+            "body": [body for body in text["body"] if body["name"] != "payload"],
+            "input": [*text["input"], {"name": "wrist_torque", "at": "wrist", "acts": "torque"}],
+            "output": [{"name": "hand", "at": "hand", "of": "position"}],
+            "control": {
+                "reference": {"shoulder": 0.5, "elbow": -0.8, "wrist": 0.2},
+                "bounds": {"torque": 0.2},
+            },
+        }
+    )
+    there = np.array([0.4, -0.9, 0.6])
+    angles = rest_with(scene, there, "here").angles
+    place = PlaneFrame.of(scene, "hand").place(angles)
+    for orientation in (angles[-1], angles[-1] - 2.0 * np.pi):
+        pose = {"frame": "hand", "position": place.tolist(), "orientation": orientation, "duration": 0.4}
+        turned = scene.replace(**{"control.trajectory": {"pose": [pose]}})
+        course = course_of(turned, Bench.of(turned).problem)
+        assert course is not None
+        assert_allclose(course.angles[-1], there, atol=1e-8)
+
+
 @pytest.mark.parametrize(
     ("pose", "words"),
     [
@@ -97,6 +126,7 @@ def test_a_file_tells_joints_or_positions(small: Scene, tmp_path: Path) -> None:
         ({"frame": "payload", "position": [0.1, 0.1]}, r"beyond control\.bounds\.hub"),
         ({"angles": {"shoulder": 0.0, "elbow": -9.0}}, r"beyond control\.bounds\.hub"),
         ({"angles": 0.0, "frame": "payload"}, r"Write one of them"),
+        ({"angles": 0.0, "orientation": 0.5}, r"orientation.* is of a frame, and there is none"),
         ({"frame": "paylod", "position": [0.5, 0.0]}, r"Did you mean 'payload'\?"),
     ],
 )

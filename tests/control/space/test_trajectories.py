@@ -95,3 +95,83 @@ def test_controllers_follow_and_stop_at_the_place(reach: Scene, place: list[floa
         assert trial.figures.fallbacks == 0
         assert trial.tracking.vibration is not None
         assert trial.tracking.vibration < 0.01, trial.kind.name
+
+
+WRIST = """
+name = "six"
+[model]
+kind = "spatial"
+gravity = [0, 0, -9.81]
+[integrator]
+name = "newmark"
+step = 2e-3
+[base]
+kind = "clamp"
+{motors}
+[[output]]
+name = "tool"
+at = "tool"
+of = "position"
+[[output]]
+name = "facing"
+at = "tool"
+of = "orientation"
+[initial]
+angles = {{ shoulder = -0.6, elbow = 1.0, pitch = 0.4 }}
+[control]
+reference = {{ yaw = 0.3, shoulder = -0.6, elbow = 1.0, roll = 0.2, pitch = 0.4, spin = 0.1 }}
+[control.bounds]
+torque = 60.0
+"""
+JOINTS = {"yaw": "z", "shoulder": "y", "elbow": "y", "roll": "x", "pitch": "y", "spin": "x"}
+
+
+def six_motors() -> Scene:
+    """Return an arm with six motors and one beam that bends, whose end can stand in any way."""
+    lines, on = [], "base"
+    for name, axis in JOINTS.items():
+        lines += ["[[motor]]", f'name = "{name}"', f'axis = "{axis}"', f'on = "{on}"', "rotor_inertia = 0.05"]
+        lines += ["[[input]]", f'name = "{name}_torque"', f'at = "{name}"', 'acts = "torque"']
+        on = name
+        if name in ("shoulder", "elbow", "spin"):
+            on = {"shoulder": "upper", "elbow": "fore", "spin": "tool"}[name]
+            if name == "shoulder":
+                lines += ["[[beam]]", "length = 0.4", "bending_stiffness = [60.0, 50.0]", "links = 1"]
+                lines += ["mass_per_length = 0.8"]
+            else:
+                lines += ["[[link]]", "length = 0.3", "mass = 0.3", "inertia = [1e-3, 1e-3, 1e-3]"]
+            lines += [f'name = "{on}"', f'on = "{name}"']
+    return parse_scene(WRIST.format(motors="\n".join(lines)), "six.toml")
+
+
+def test_a_part_is_brought_to_a_place_and_stands_there_as_told() -> None:
+    """Sagging as it does; the quaternion is the one that the generated kernel shows, of any length and sign."""
+    scene = six_motors()
+    there = np.array([0.5, -0.3, 0.8, -0.4, 0.7, 0.3])
+    kernel = compile_kernel(build_program(scene), scene, flags=("-O1",))
+    kernel.prepare()
+    kernel.initialise(initial_angle=rest_with(scene, there, "here").angles)
+    shown = kernel.output()
+    position = [shown[f"tool_{axis}"] for axis in "xyz"]
+    quaternion = [-2.0 * shown[f"facing_{axis}"] for axis in "wxyz"]
+    pose = {"frame": "tool", "position": position, "orientation": quaternion, "duration": 0.4}
+    course = course_of(with_poses(scene, pose), Bench.of(scene).problem)
+    assert course is not None
+    assert_allclose(course.angles[-1], there, atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("facing", "said"),
+    [
+        (0.5, r"orientation.*must be a quaternion: w, x, y, z.*Write for example"),
+        ([0.0, 0.0, 0.0, 0.0], r"is no quaternion"),
+        ([1.0, 0.0], r"must be an angle in rad, or in space a quaternion"),
+        ([1.0, 0.0, 0.5, 0.0], r"are 6 numbers, for 2 motors: leave out `orientation`"),
+    ],
+)
+def test_orientations_that_cannot_be_are_refused(
+    reach: Scene, place: list[float], facing: object, said: str
+) -> None:
+    pose = {"frame": "payload", "position": place, "orientation": facing, "duration": 0.5}
+    with pytest.raises(UserError, match=said):
+        _ = Bench.of(with_poses(reach, pose)).course

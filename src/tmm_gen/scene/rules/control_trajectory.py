@@ -10,7 +10,7 @@ from tmm_gen.scene.document import Document
 from tmm_gen.scene.each import by_names
 from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.table import closest
-from tmm_gen.scene.trajectory import Keep
+from tmm_gen.scene.trajectory import Keep, PoseEntry
 
 _TRAJECTORY: Path = ("control", "trajectory")
 _SOLID = "beam, link or body"
@@ -133,6 +133,7 @@ def can_be_followed(
                 f"Write for example `[{', '.join(_SOMEWHERE[: len(axes)])}]`, in m.",
                 list(pose.position),
             )
+        yield from _facing(pose, path, axes)
         if pose.angles is None or control.bounds.hub is None:
             continue
         for angle, (low, high) in zip(
@@ -145,6 +146,30 @@ def can_be_followed(
                     "Widen the bounds, or set other angles.",
                     angle,
                 )
+
+
+def _facing(pose: PoseEntry, path: Path, axes: str) -> Iterator[Finding]:
+    """Find an orientation of nothing, and one of another dimension."""
+    if pose.orientation is None:
+        return
+    if pose.frame is None:
+        yield Finding(
+            (*path, "orientation"),
+            "is of a frame, and there is none",
+            "Remove it, or write `frame` and `position`.",
+        )
+    elif len(pose.orientation) != (1 if axes == "xy" else 4):
+        must, example = (
+            ("an angle in rad", "0.5")
+            if axes == "xy"
+            else ("a quaternion: w, x, y, z", "[1.0, 0.0, 0.0, 0.0]")
+        )
+        yield Finding(
+            (*path, "orientation"),
+            f"must be {must}",
+            f"Write for example `{example}`.",
+            list(pose.orientation),
+        )
 
 
 def _kind(axes: str) -> str:
