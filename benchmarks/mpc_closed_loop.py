@@ -33,6 +33,7 @@ from tmm_gen.closed_loop.pictures import comparison_picture
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME, CONTROLLERS
+from tmm_gen.control.gears import conditions_of
 from tmm_gen.files import write_tree_whole, write_whole
 from tmm_gen.onboard.emit import EMITTED
 from tmm_gen.scene import load_scene
@@ -88,9 +89,9 @@ def conditions(bench: Bench, seeds: Sequence[int]) -> Rows:
     runs = [(kind, True) for kind in CONTROLLERS if kind.default] + [(BY_NAME["rti"], False)]
     runs += [(kind, False) for kind in CONTROLLERS if not kind.default]
     rows: Rows = []
-    with progress("conditions", total=len(runs) * len(CONDITIONS)) as advance:
+    with progress("conditions", total=len(runs) * len(conditions_of(bench.scene))) as advance:
         for kind, compiled in runs:
-            for case in CONDITIONS:
+            for case in conditions_of(bench.scene):
                 tried = seeds[:1] if kind.name == SLOW else seeds
                 figures = worst(bench, kind, case, tried, compiled=compiled)
                 rows.append(
@@ -111,7 +112,8 @@ def conditions(bench: Bench, seeds: Sequence[int]) -> Rows:
 
 def section(trials: Rows, loops: Rows) -> str:
     """Return what the page says of both: a table and what was counted."""
-    titles = [case.title for case in CONDITIONS]
+    tried = {row["condition"] for row in trials}
+    titles = [case.title for case in CONDITIONS if case.name in tried]
     lines = ["| controller | " + " | ".join(titles) + " |", "|---" * (1 + len(titles)) + "|"]
     for name, compiled in dict.fromkeys((row["controller"], row["compiled"]) for row in trials):
         both = name in EMITTED and not compiled

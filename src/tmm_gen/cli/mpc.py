@@ -151,13 +151,14 @@ def mpc(
     from tmm_gen.control.controllers import BY_NAME, CONTROLLERS, require_solvers
 
     kinds = chosen("--controller", controllers, {kind.name: kind for kind in CONTROLLERS})
-    cases = chosen("--condition", conditions, {case.name: case for case in CONDITIONS}) or [*CONDITIONS]
+    cases = chosen("--condition", conditions, {case.name: case for case in CONDITIONS})
     if listed:
         list_all(json_mode)
         return
     if folder is not None and not tunables:
         require_free(folder, force)
     from tmm_gen.control.bench import Bench
+    from tmm_gen.control.gears import conditions_of
     from tmm_gen.control.walls import far_behind
 
     bench = Bench.of(loaded)
@@ -175,7 +176,7 @@ def mpc(
         return
     kinds = kinds or [kind for kind in CONTROLLERS if kind.compared(bench)]
     require_solvers(kinds)
-    trials = _trials(loaded, bench, kinds, cases, until, seed, compiled)
+    trials = _trials(loaded, bench, kinds, cases or [*conditions_of(loaded)], until, seed, compiled)
     show(loaded, trials, until, write_files(bench, trials, picture, animated), json_mode)
 
 

@@ -15,6 +15,7 @@ from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.controllers import ControllerKind
+from tmm_gen.control.gears import giving_way
 from tmm_gen.control.kalman import present_sensors
 from tmm_gen.onboard.emit import EMITTED, emit_controller
 from tmm_gen.onboard.native import EmittedController
@@ -112,8 +113,11 @@ def compare(
     Raises
     ------
     UserError
-        If the motor cannot hold the target.
+        If the motor cannot hold the target, or there is no gear that could give way under a condition of gears.
     """
+    for condition in conditions:
+        if condition.twist:
+            giving_way(bench.scene, condition.twist)  # to be refused before others have taken their time
     told = {(0.0, 0.0): bench}
     for condition in conditions:
         known = (condition.gravity, condition.delay)

@@ -27,6 +27,8 @@ class Condition:
         s, added to the scene's; model-based controllers are told, since it can be measured.
     noise : float
         Factor of all sensor noise.
+    twist : float
+        What a motor's largest torque twists its gear by, where that is rigid in the scene, rad; 0: it is rigid.
     """
 
     name: str
@@ -37,10 +39,14 @@ class Condition:
     gravity: float = 0.0
     delay: float = 0.0
     noise: float = 1.0
+    twist: float = 0.0
 
 
 STANDARD_GRAVITY = 9.80665
 """m/s^2."""
+TWIST = 2e-3
+"""Of good strain-wave gears, rad: 2 mrad at 210 N m with the stiffness of Harmonic Drive's worked example (engineering
+data of CHA and LynxDrive: 67 kN m/rad below 29 N m, 110 below 108 N m, 120 above)."""
 
 CONDITIONS: tuple[Condition, ...] = (
     Condition("nominal", "as the scene says"),
@@ -50,4 +56,5 @@ CONDITIONS: tuple[Condition, ...] = (
     Condition("delay", "delay 10 ms", delay=0.01),
     Condition("soft", "stiffness -20 %", stiffness=0.8),
     Condition("stiff", "stiffness +20 %", stiffness=1.2),
+    Condition("gears", "rigid gears give way by 2 mrad", twist=TWIST),
 )

@@ -6,6 +6,7 @@ import numpy as np
 
 from tmm_gen.control.arms import arm_of
 from tmm_gen.control.condition import Condition
+from tmm_gen.control.gears import giving_way
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.prediction import fine_scene
 from tmm_gen.control.problem import ControlProblem
@@ -29,7 +30,13 @@ OUTPUTS: list[dict[str, object]] = [
 
 
 def plant_scene(scene: Scene, condition: Condition) -> Scene:
-    """Return the arm of a condition, finer than the scene's and integrated by another method."""
+    """Return the arm of a condition, finer than the scene's and integrated by another method.
+
+    Raises
+    ------
+    UserError
+        If its rigid gears are to give way, and it has none.
+    """
     changes: dict[str, object] = {
         "name": "plant",
         "output": OUTPUTS if scene.base.turns else _outputs(scene),
@@ -38,6 +45,8 @@ def plant_scene(scene: Scene, condition: Condition) -> Scene:
         "control": None,
         "emit": {"backends": ["c"]},
     }
+    if condition.twist:
+        changes.update(giving_way(scene, condition.twist))
     if condition.gravity:
         changes["model.gravity"] = arm_of(scene).falling(condition.gravity)
     return fine_scene(scene.replace(**changes), PLANT_LINKS)
