@@ -128,9 +128,8 @@ def _motor(scene: Scene, number: int, input_name: str) -> Motor:
     assert arm is not None
     joint = arm.joints[number - 1]
     hub: tuple[int, ...] = (number - 1,)
-    if joint.name in behind_gears(
-        scene
-    ):  # the spring of the gear is a joint of its own, at the motor's outer end
+    if joint.name in behind_gears(scene):
+        # the gear's spring is a joint of its own, at the motor's outer end
         hub += (next(frame.joint for frame in arm.frames if frame.name == joint.name) - 1,)
     return Motor(joint.name, input_name, place=number - 1, host=-1, end=number, gear=joint.gear, hub=hub)
 

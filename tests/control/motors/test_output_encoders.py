@@ -50,10 +50,11 @@ def test_the_rotor_is_ahead_by_what_winds_the_gear_up(two: Bench) -> None:
 
 
 def test_a_rigid_gear_has_one_side(two: Bench) -> None:
-    """All of the controller's rows are the same."""
+    """All of the controller's rows are the same, and so is its C."""
     rigid = two.scene.replace(**OUTPUT)
     for name in ("hub", "tip", "turned", "drive"):
         assert_allclose(getattr(motors_of(rigid), name), getattr(two.problem.motors, name), rtol=0.0)
+    assert emit_controller(Bench.of(rigid), "rti-zero") == emit_controller(two, "rti-zero")
 
 
 def test_the_finer_arm_shows_the_output(behind: Bench) -> None:
