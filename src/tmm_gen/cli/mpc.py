@@ -158,6 +158,7 @@ def mpc(
     if folder is not None and not tunables:
         require_free(folder, force)
     from tmm_gen.control.bench import Bench
+    from tmm_gen.control.course import begins_elsewhere
     from tmm_gen.control.walls import far_behind
 
     bench = Bench.of(loaded)
@@ -175,6 +176,9 @@ def mpc(
         return
     kinds = kinds or [kind for kind in CONTROLLERS if kind.compared(bench)]
     require_solvers(kinds)
+    if bench.course is not None:
+        for said in begins_elsewhere(loaded, bench.problem, bench.course):
+            click.echo(said, err=True)
     trials = _trials(loaded, bench, kinds, cases, until, seed, compiled)
     show(loaded, trials, until, write_files(bench, trials, picture, animated), json_mode)
 
