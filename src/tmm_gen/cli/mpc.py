@@ -160,6 +160,7 @@ def mpc(
     from tmm_gen.control.bench import Bench
     from tmm_gen.control.course import begins_elsewhere
     from tmm_gen.control.extremes import naming_extremes
+    from tmm_gen.control.pd_gains import unstable_pd
     from tmm_gen.control.walls import far_behind
 
     with naming_extremes(loaded):
@@ -178,6 +179,8 @@ def mpc(
             return
         kinds = kinds or [kind for kind in CONTROLLERS if kind.compared(bench)]
         require_solvers(kinds)
+        for said in unstable_pd(bench, [kind.name for kind in kinds]):
+            click.echo(said, err=True)
         if bench.course is not None:
             for said in begins_elsewhere(loaded, bench.problem, bench.course):
                 click.echo(said, err=True)

@@ -228,7 +228,8 @@ class Baselines(Table):
     ----------
     pd, pd_zv, pd_zvd : (proportional, derivative), optional
         Gains on the hub, N m/rad and N m s/rad: alone, and with a reference shaped to leave no vibration. Without
-        them: critical damping of the rigid arm at a quarter of its first frequency.
+        them: critical damping of the rigid arm at a quarter of its first frequency, or where that is not stable in
+        samples at a half, a quarter, ... of this.
     pd_id : (proportional, derivative), optional
         The same beside the torques of the rigid arm along a quintic.
     lqr : RegulatorWeights
