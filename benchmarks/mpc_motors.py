@@ -23,7 +23,7 @@ from tmm_gen.closed_loop.figures import loop_figures
 from tmm_gen.closed_loop.loop import Loop, run_loop
 from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.command import Command, Controller, Flags
+from tmm_gen.control.command import Command, Controller, Flags, Status
 from tmm_gen.control.condition import CONDITIONS, Condition
 from tmm_gen.control.controllers import CONTROLLERS
 from tmm_gen.files import write_whole
@@ -84,6 +84,9 @@ class Noted:
     def reset(self) -> None:
         self.measured.clear()
         self._controller.reset()
+
+    def follow(self, angles: np.ndarray) -> Status:
+        return self._controller.follow(angles)
 
     def prepare(self) -> None:
         self._controller.prepare()

@@ -107,7 +107,7 @@ class CarryingSpacePlant(CarryingPlant, SpacePlant):
 
     def laden(self, mass: float) -> Scene:
         """Return the scene of the arm whose outermost bodies have a mass, kg."""
-        return self.scene.replace(**dict.fromkeys(arm_of(self.scene).payloads(), mass))
+        return self.scene.replace(**dict.fromkeys(self.payloads, mass))
 
     def carry(self, mass: float) -> None:
         """Carry another mass, kg, from now on."""

@@ -11,7 +11,7 @@ from tmm_gen.closed_loop.figures import Figures, loop_figures
 from tmm_gen.closed_loop.loop import Loop, run_loop
 from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.command import Command, Controller, Flags
+from tmm_gen.control.command import Command, Controller, Flags, Status
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.controllers import BY_NAME
 
@@ -161,6 +161,9 @@ class _Faulty:
     def reset(self) -> None:
         self._random = np.random.default_rng(self._seed)
         self._controller.reset()
+
+    def follow(self, angles: Array) -> Status:
+        return self._controller.follow(angles)
 
     def prepare(self) -> None:
         self._controller.prepare()

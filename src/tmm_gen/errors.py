@@ -11,7 +11,7 @@ from typing import ClassVar
 
 __all__ = ["CheckFailed", "UserError", "beyond", "of_numbers"]
 
-_OF_LIBRARIES = ("infs or NaNs", "invalid numeric entries")
+_OF_LIBRARIES = ("infs or NaNs", "invalid numeric entries", "too far from generalized Schur form")
 """In what words NumPy and SciPy refuse numbers that are none."""
 
 

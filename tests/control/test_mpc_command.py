@@ -70,6 +70,39 @@ def test_a_folder_that_has_a_controller_is_refused_before_the_work(
     assert (tmp_path / "CMakeLists.txt").read_text() == "mine"
 
 
+def test_a_controller_takes_the_place_of_another(
+    tmp_path: Path, repository: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Nothing of the former one is left to be compiled with it; what the user put there stays, whatever its name."""
+    monkeypatch.chdir(tmp_path)
+    words = ["mpc", str(repository / "scenes" / "swing.toml"), "--emit", "made", "--json"]
+    assert main([*words, "--name", "first"]) == 0
+    first = {path.relative_to(tmp_path) for path in Path("made").resolve().rglob("*") if path.is_file()}
+    mine = {
+        "made/first_use.c": "/**\n * first: mine\n */\n",
+        "made/plant/motor.h": "",
+        "made/notes.txt": "Written by",
+    }
+    for path, text in mine.items():
+        Path(path).write_text(text)
+    capsys.readouterr()
+    Path("made/CMakeLists.txt").unlink()
+    Path("made/example/example.c").unlink()
+    assert main([*words, "--name", "second"]) == 2
+    assert "--emit made: has first.c of another controller" in capsys.readouterr().err
+    assert not Path("made/second.c").exists()
+    assert main([*words, "--name", "second", "--force"]) == 0
+    removed = {Path(each) for each in json.loads(capsys.readouterr().out)["removed"]}
+    assert removed == {path for path in first if "first" in path.name}
+    assert len(removed) >= 4
+    left = {path.relative_to(tmp_path) for path in Path("made").resolve().rglob("*") if path.is_file()}
+    renamed = {path.with_name(path.name.replace("first", "second")) for path in first}
+    assert left == renamed | {Path(each) for each in mine}
+    assert all(Path(path).read_text() == text for path, text in mine.items())
+    assert main([*words, "--name", "second", "--force"]) == 0
+    assert json.loads(capsys.readouterr().out)["removed"] == []
+
+
 def test_single_precision_is_refused_where_it_leaves_no_digit_of_torques(repository: Path) -> None:
     bench: Any = SimpleNamespace(scene=load_scene(repository / "scenes" / "swing.toml"))
     for spread, real, refused in ((1e9, "float32", True), (1e9, "float64", False), (1e6, "float32", False)):

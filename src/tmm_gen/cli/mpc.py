@@ -158,26 +158,35 @@ def mpc(
     if folder is not None and not tunables:
         require_free(folder, force)
     from tmm_gen.control.bench import Bench
+    from tmm_gen.control.course import begins_elsewhere
+    from tmm_gen.control.extremes import naming_extremes
     from tmm_gen.control.gears import conditions_of
+    from tmm_gen.control.pd_gains import unstable_pd
     from tmm_gen.control.walls import far_behind
 
-    bench = Bench.of(loaded)
-    for said in far_behind(loaded, bench.problem):
-        click.echo(said, err=True)
-    if tunables:
-        tuned(scene, bench, tunables, evaluations, seed, workers, refine, out, force, json_mode)
-        return
-    if folder is not None:
-        from tmm_gen.onboard.emit import usual_controller
+    with naming_extremes(loaded):
+        bench = Bench.of(loaded)
+        for said in far_behind(loaded, bench.problem):
+            click.echo(said, err=True)
+        if tunables:
+            tuned(scene, bench, tunables, evaluations, seed, workers, refine, out, force, json_mode)
+            return
+        if folder is not None:
+            from tmm_gen.onboard.emit import usual_controller
 
-        kinds = kinds or [BY_NAME[usual_controller(bench)]]
+            kinds = kinds or [BY_NAME[usual_controller(bench)]]
+            require_solvers(kinds)
+            emit(bench, [kind.name for kind in kinds], folder, real, name, force, json_mode)
+            return
+        kinds = kinds or [kind for kind in CONTROLLERS if kind.compared(bench)]
         require_solvers(kinds)
-        emit(bench, [kind.name for kind in kinds], folder, real, name, force, json_mode)
-        return
-    kinds = kinds or [kind for kind in CONTROLLERS if kind.compared(bench)]
-    require_solvers(kinds)
-    trials = _trials(loaded, bench, kinds, cases or [*conditions_of(loaded)], until, seed, compiled)
-    show(loaded, trials, until, write_files(bench, trials, picture, animated), json_mode)
+        for said in unstable_pd(bench, [kind.name for kind in kinds]):
+            click.echo(said, err=True)
+        if bench.course is not None:
+            for said in begins_elsewhere(loaded, bench.problem, bench.course):
+                click.echo(said, err=True)
+        trials = _trials(loaded, bench, kinds, cases or [*conditions_of(loaded)], until, seed, compiled)
+        show(loaded, trials, until, write_files(bench, trials, picture, animated), json_mode)
 
 
 def _trials(

@@ -115,14 +115,15 @@ def require_free(folder: Path, force: bool) -> None:
 def emit(
     bench: Bench, names: list[str], folder: Path, real: str, prefix: str | None, force: bool, json_mode: bool
 ) -> None:
-    """Write a controller as C.
+    """Write a controller as C, in place of another one that was written there.
 
     Raises
     ------
     UserError
-        If there is none of that name in C, more than one is asked for, or the prefix is no name.
+        If there is none of that name in C, more than one is asked for, the prefix is no name, or another is there.
     """
     from tmm_gen.onboard.emit import EMITTED, emit_controller
+    from tmm_gen.onboard.former import former_files
     from tmm_gen.scene.identifier import scene_name_fault
 
     if len(names) != 1 or names[0] not in EMITTED:
@@ -134,14 +135,30 @@ def emit(
     with progress(f"writing {names[0]}"):
         name, files = emit_controller(bench, names[0], real, prefix, real_time=True)
     written = {folder / path: text for path, text in files.items()}
+    left = former_files(folder, written)
+    if left and not force:
+        raise UserError(
+            f"--emit {folder}: has {left[0].name} of another controller, which would be compiled with this one. Name "
+            "another folder, or replace what is there with --force."
+        )
     write_outputs(dict(written), force=force)
+    for path in left:
+        path.unlink()
     rows: list[dict[str, object]] = [
         {"file": path, "bytes": len(text.encode())} for path, text in written.items()
     ]
-    facts = {"scene": bench.scene.name, "controller": names[0], "name": name, "real": real}
+    facts = {
+        "scene": bench.scene.name,
+        "controller": names[0],
+        "name": name,
+        "real": real,
+        "removed": [*left],
+    }
     title = f"{bench.scene.title}: {names[0]} as C"
     table(rows, ["file", Column("bytes", form="d")], json_mode, title=title, more=facts)
     if not json_mode:
+        if left:
+            click.echo(f"removed of another controller: {', '.join(str(path) for path in left)}")
         click.echo(f"call {name}_command() once per sample; {folder / (name + '.h')} says how")
         place = shlex.quote(str(folder))
         click.echo(f"try it: cd {place} && cc -O2 example/example.c *.c daqp/*.c -lm && ./a.out")

@@ -16,6 +16,7 @@ from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.controllers import BY_NAME
+from tmm_gen.control.extremes import UnsolvableError
 from tmm_gen.control.inverse_dynamics import quintic_way
 from tmm_gen.control.target import rest_with
 
@@ -132,7 +133,7 @@ def objective(
     for index, (name, aim, seed) in enumerate(loops):
         try:
             controller = made[name] = made.get(name) or BY_NAME[name].make(bench)
-        except (np.linalg.LinAlgError, ValueError):  # numbers with which nothing can be solved
+        except (ArithmeticError, ValueError, UnsolvableError):  # numbers with which nothing can be solved
             return _HOPELESS
         plant = plant_of(bench.scene, bench.problem, aim.condition, seed)
         prices[index] = price(run_loop(controller, plant, 2.0 * aim.after, timed=False), aim)

@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.arms import arm_of
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.motors import motors_of
+from tmm_gen.control.payload_body import beside_payload
 from tmm_gen.control.plant_scene import plant_scene, steps_of_a_sample
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.sensing import Sensing, sites_of
@@ -48,6 +50,8 @@ class Plant:
 
     Attributes
     ----------
+    payloads : dict from str to float
+        Masses that are the payload, kg, by their keys in the scene.
     states : list of dict
         The kernel's state at the start of each sample so far.
     """
@@ -56,6 +60,8 @@ class Plant:
         self.scene = plant_scene(scene, condition)
         self.problem, self.condition = problem, condition
         self.motors = motors_of(self.scene)
+        self.payloads = arm_of(scene).payloads()  # of the user's scene, which says which body it is
+        self._others = beside_payload(scene)
         self.kernel = plant_kernel(self.scene)
         self.substeps = steps_of_a_sample(problem)
         self.step = problem.sample_time / self.substeps
@@ -83,7 +89,7 @@ class Plant:
         defaults = {v.name: v.default for v in self.kernel.program.parameters}
         changes = {}
         if self.condition.payload != 1.0 and "tip_mass" in defaults:
-            changes["tip_mass"] = np.multiply(self.condition.payload, np.asarray(defaults["tip_mass"], float))
+            changes["tip_mass"] = self._laden(np.asarray(defaults["tip_mass"], float))
         if self.condition.stiffness != 1.0:
             for name in ("stiffness", "damping"):
                 if name in defaults:
@@ -111,8 +117,12 @@ class Plant:
         joints = [
             joint.model_copy(update={"stiffness": stiff * joint.stiffness}) for joint in self.scene.joints
         ]
-        loaded = tip and tip.model_copy(update={"mass": self.condition.payload * tip.mass})
+        loaded = tip and tip.model_copy(update={"mass": float(self._laden(tip.mass))})
         return replace(self.scene, joints=tuple(joints), tip=loaded)
+
+    def _laden(self, mass: Array | float) -> Array:
+        """Return the mass at the tip of an arm in a plane under its condition, kg."""
+        return np.asarray(self.condition.payload * (mass - self._others) + self._others, float)
 
     def restart(self, bend: Array, rate: float) -> None:
         """Start anew, bent and moving.

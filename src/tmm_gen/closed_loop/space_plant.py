@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.closed_loop.plant import Plant
-from tmm_gen.control.arms import arm_of
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.space_motors import space_motors
@@ -58,7 +57,7 @@ class SpacePlant(Plant):
         """Return the scene of the arm under its condition."""
         scene, stiff, payload = self.scene, self.condition.stiffness, self.condition.payload
         if payload != 1.0:
-            scene = scene.replace(**{key: payload * mass for key, mass in arm_of(scene).payloads().items()})
+            scene = scene.replace(**{key: payload * mass for key, mass in self.payloads.items()})
         assert scene.spatial is not None
         joints = tuple(
             replace(joint, stiffness=stiff * joint.stiffness, damping=stiff * joint.damping)

@@ -65,7 +65,10 @@ class Bench:
 
         Models there are already are shared, unless they reckon with another payload.
         """
-        payloads = {each.control.payload if each.control else 1.0 for each in (self.scene, scene)}
+        payloads = {
+            (each.control.payload, each.control.payload_body) if each.control else (1.0, None)
+            for each in (self.scene, scene)
+        }
         return self._sharing(scene, control_problem(scene)) if len(payloads) == 1 else Bench.of(scene)
 
     def with_problem(self, problem: ControlProblem) -> Bench:

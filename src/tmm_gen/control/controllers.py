@@ -15,6 +15,7 @@ from tmm_gen.control.inverse_dynamics import quintic_way
 from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.lqr import Regulator
 from tmm_gen.control.pd import PdController
+from tmm_gen.control.pd_gains import usual_gains
 from tmm_gen.control.qp import require_daqp
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.shaper import Kind, shaper, slowest_vibration
@@ -88,12 +89,11 @@ class ControllerKind:
 
 
 def _gains(bench: Bench, gains: Each[tuple[float, float]] | None) -> tuple[Array, Array]:
-    """Return gains, (m,) each, by default critical damping of the rigid arm at a quarter of its first frequency."""
+    """Return gains, (m,) each; see :mod:`tmm_gen.control.pd_gains` for those that are not told."""
     if gains is not None:
         proportional, derivative = np.array(by_names(gains, bench.problem.motors.names)).T
         return proportional, derivative
-    slow = 0.25 * arm_of(bench.scene).slowest()
-    return bench.inertia * slow**2, 2.0 * bench.inertia * slow
+    return usual_gains(bench)
 
 
 def _baselines(bench: Bench) -> Baselines:

@@ -72,6 +72,38 @@ def course_of(scene: Scene, problem: ControlProblem) -> Course | None:
     return Course(np.vstack(list(_quintics(scene, problem, way))))
 
 
+def begins_elsewhere(scene: Scene, problem: ControlProblem, course: Course) -> list[str]:
+    """Return a line for each motor whose joint starts elsewhere than the file of a course says: the reference jumps.
+
+    That is where it is off by more than the course moves in any sample, and an encoder tells.
+    """
+    way = scene.control.trajectory if scene.control is not None else None
+    if way is None or way.file is None:
+        return []
+    off = course.angles[0] - problem.start
+    steps = np.max(np.abs(np.diff(course.angles, axis=0)), axis=0, initial=0.0)
+    jumps = np.abs(off) > np.maximum(steps, 2.0 * np.pi / problem.encoders)
+    names = problem.motors.names
+    begin = ", ".join(f"{name} = {angle:.6g}" for name, angle in _initial(scene, problem, course.angles[0]))
+    return [
+        f"{where(scene, 'control.trajectory.file')}: '{way.file}' begins with the joint of motor '{names[motor]}' at "
+        f"{course.angles[0, motor]:.4g} rad, {abs(off[motor]):.3g} rad from where the arm starts: the reference jumps "
+        f"there at once. Set `angles = {{ {begin} }}` under [initial], or let the file begin where the arm starts."
+        for motor in np.flatnonzero(jumps)
+    ]
+
+
+def _initial(scene: Scene, problem: ControlProblem, hub: Array) -> Iterator[tuple[str, float]]:
+    """Yield what ``initial.angles`` says for hubs somewhere: in a plane of beams and links, in space of motors."""
+    if scene.spatial is not None:
+        yield from zip(problem.motors.names, hub.tolist(), strict=True)
+        return
+    angles = problem.motors.turned @ hub
+    for part in scene.parts:
+        if part.kind in ("beam", "link"):
+            yield part.name, float(angles[part.last - 1])
+
+
 def _quintics(scene: Scene, problem: ControlProblem, way: Trajectory) -> Iterator[Array]:
     """Yield the angles at all samples, stretch by stretch: from pose to pose, and the rests there."""
     begin, now, sample = problem.start, 0.0, 0

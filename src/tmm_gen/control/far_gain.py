@@ -16,11 +16,13 @@ from numpy.typing import NDArray
 from scipy.linalg import solve_discrete_are
 
 from tmm_gen.control.arms import arm_of
+from tmm_gen.control.extremes import UnsolvableError
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.linear import LinearModel
 from tmm_gen.control.links import rest_state
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.step_model import StepModel
+from tmm_gen.control.where import where
 
 Array = NDArray[np.float64]
 
@@ -69,7 +71,7 @@ def far_gain(model: StepModel, linear: LinearModel, stationary: KalmanFilter) ->
 
     Raises
     ------
-    ArithmeticError
+    UnsolvableError
         If no gain is found that is stable in the poses tried.
     """
     count, target = model.problem.count, linear.goal.hub
@@ -96,9 +98,11 @@ def far_gain(model: StepModel, linear: LinearModel, stationary: KalmanFilter) ->
     for gain in _rigid_gains(model, stationary):
         if all(tried.is_stable(each, gain) for each in maps):
             return FarGain(gain, target, within)
-    raise ArithmeticError(
-        f"{model.scene.source.origin}: control.estimator: no gains are stable in all poses of the arm. Set a smaller "
-        "disturbance there, or more control.substeps."
+    problem = model.problem
+    raise UnsolvableError(
+        f"{where(model.scene, 'control.substeps')}: no gains of the filter are stable in all poses of the arm, where "
+        f"it is predicted by steps of {problem.step:g} s (got {problem.substeps}). Write more for a sample, such "
+        f"as {4 * problem.substeps}, or set a smaller control.estimator.disturbance."
     )
 
 

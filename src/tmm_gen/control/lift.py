@@ -13,6 +13,7 @@ from tmm_gen.control.arm import ControlledArm, Holding
 from tmm_gen.control.arms import arm_of
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.payload import laden, payload_of
+from tmm_gen.control.payload_body import payload_words
 from tmm_gen.control.terms import Goal
 from tmm_gen.scene import Scene
 
@@ -39,19 +40,22 @@ class Lift:
         With a kilogram more; None where the arm has no one mass at its end.
     payload : float or None
         That mass, kg.
+    words : str
+        What it is called.
     """
 
     motors: int
     arm: ControlledArm
     heavier: ControlledArm | None
     payload: float | None
+    words: str
 
     @classmethod
     def of(cls, scene: Scene) -> Lift:
         """Return that of a scene with ``[control]``."""
         payload = payload_of(scene)
         heavier = None if payload is None else arm_of(laden(scene, payload + 1.0))
-        return cls(motors_of(scene).count, arm_of(scene), heavier, payload)
+        return cls(motors_of(scene).count, arm_of(scene), heavier, payload, payload_words(scene))
 
     @cached_property
     def holding(self) -> Holding:

@@ -139,8 +139,8 @@ class LinearMpc(ModelBased):
         lift = self.model.lift
         if lift.payload is None or not lift.carries:
             raise UserError(
-                "only arms with one mass at their end that has to be held up tell linear controllers of another "
-                "payload: leave it as it is, or take `rti`"
+                "only arms with one mass at their end, or control.payload_body, that has to be held up tell linear "
+                "controllers of another payload: leave it as it is, or take `rti`"
             )
         if not 0.0 <= payload < np.inf:
             return Status.NOT_FINITE

@@ -140,7 +140,7 @@ class Movable(ModelBased):
         Parameters
         ----------
         payload : float
-            Mass at the tip, kg.
+            Mass at the tip, or of ``control.payload_body``, kg.
 
         Returns
         -------
@@ -151,13 +151,13 @@ class Movable(ModelBased):
         Raises
         ------
         UserError
-            If the arm stands on a hub, or has no one mass at its end.
+            If the arm stands on a hub, or has no one mass at its end and says of none that it is the payload.
         """
         self._require_movable()
         if not self.model.carries:
             raise UserError(
                 f"{self.model.scene.source.origin}: only arms with one [[body]] at their end, and with a mass, take "
-                "another payload; give it one, or leave the payload as it is."
+                'another payload. Of several say which: `payload_body = "..."` in [control].'
             )
         if not 0.0 <= payload < np.inf:
             return Status.NOT_FINITE

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from tmm_gen.control.arm import Held, Holding
 from tmm_gen.control.holding import LevelHolding, holding
 from tmm_gen.control.motors import motors_of
+from tmm_gen.control.payload_body import payload_body, tip_bodies
 from tmm_gen.modal.arm import linear_arm
 from tmm_gen.modal.matrices import matrices
 from tmm_gen.modal.rest import rest_at
@@ -68,16 +68,14 @@ class PlanarArm:
         return np.asarray(forces @ motors.turned / motors.gears, float)
 
     def payloads(self) -> Mapping[str, float]:
-        """Return the masses at the tip."""
+        """Return the mass of the body that is told to be it, or all masses at the tip."""
         scene = self.scene
         if scene.tip is None:
             return {}
         if not scene.parts:
             return {"tip.mass": scene.tip.mass}
-        bodies = [part.name for part in scene.parts if part.kind == "body" and part.last == scene.stations]
-        entries: Any = scene.source.data["body"]
-        masses = {entry["name"]: entry["mass"] for entry in entries}
-        return {f"body.{name}.mass": masses[name] for name in bodies}
+        masses, told = tip_bodies(scene), payload_body(scene)
+        return {f"body.{name}.mass": mass for name, mass in masses.items() if told in (None, name)}
 
     def falling(self, more: float) -> float:
         """Return gravity along -y with some more of it, m/s^2."""

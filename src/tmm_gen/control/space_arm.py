@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from tmm_gen.control.arm import Held, Holding
 from tmm_gen.control.motor_rows import Motors
 from tmm_gen.control.motors import motors_of
+from tmm_gen.control.payload_body import payload_body
 from tmm_gen.control.space_motors import outer_bodies
 from tmm_gen.modal.space.matrices import space_matrices
 from tmm_gen.modal.space.numbers import ArmNumbers
@@ -82,10 +83,12 @@ class SpaceArm:
         return np.asarray(lacking @ self._motors.turned / self._motors.gears, float)
 
     def payloads(self) -> Mapping[str, float]:
-        """Return the masses of the bodies that are outermost on their branches; frames have none."""
+        """Return the mass of the body told to be it, or of those outermost on their branches; frames have none."""
         entries: Any = self.scene.source.data.get("body", [])
         masses = {entry["name"]: entry["mass"] for entry in entries if "mass" in entry}
-        return {f"body.{name}.mass": masses[name] for name in outer_bodies(self.scene) if name in masses}
+        told = payload_body(self.scene)
+        names = outer_bodies(self.scene) if told is None else (told,)
+        return {f"body.{name}.mass": masses[name] for name in names if name in masses}
 
     def falling(self, more: float) -> list[float]:
         """Return gravity with some more of it along -z, m/s^2."""

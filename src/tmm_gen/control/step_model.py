@@ -14,13 +14,15 @@ from tmm_gen.control.delay import Delay, delay_of
 from tmm_gen.control.lag import input_lag
 from tmm_gen.control.motor_rows import Motors
 from tmm_gen.control.motors import motors_of
-from tmm_gen.control.payload import changed_parameters, laden, payload_of
+from tmm_gen.control.payload import changed_parameters, kept_out, laden, payload_of
+from tmm_gen.control.payload_body import payload_body
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.sample import after_sample, rollout, rollout_slopes, sample_slopes
 from tmm_gen.control.sensing import Sensing, sites_of
 from tmm_gen.control.sensors import sensors_of
 from tmm_gen.control.step_slopes import step_slopes
 from tmm_gen.control.target import Start, find_start
+from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]
@@ -60,15 +62,26 @@ class StepModel:
 
     @cached_property
     def carries(self) -> bool:
-        """Whether the mass at its tip is among its parameters."""
-        payload = payload_of(self.scene)
-        if payload is None:
+        """Whether its parameters tell of its payload.
+
+        Raises
+        ------
+        UserError
+            If they do not, though the scene says which body that is.
+        """
+        if payload_of(self.scene) is None:
             return False
-        changed = changed_parameters(self.scene, laden(self.scene, payload + 1.0))
-        return set(changed) <= set(self.module.PARAMETER_NAMES)
+        missing = kept_out(self.scene, self.module.PARAMETER_NAMES)
+        if missing and (told := payload_body(self.scene)) is not None:
+            raise UserError(
+                f'{self.scene.source.origin}: control.payload_body = "{told}": what it weighs cannot be told to the '
+                f"code of this arm, where {', '.join(missing)} would change, which the scene has at zero or the same "
+                f"at all joints. Change body.{told}.mass a little, or remove the key."
+            )
+        return not missing
 
     def carrying(self, payload: float) -> StepModel:
-        """Return the model of the arm with another mass at its tip, kg, that starts as this one does."""
+        """Return the model of the arm with another payload, kg, that starts as this one does."""
         other = StepModel(laden(self.scene, payload), self.problem)
         parameters = self.parameters.copy()
         for name, value in changed_parameters(self.scene, other.scene).items():

@@ -90,6 +90,8 @@ class LinearMpcData:
         By how much these grow for each kilogram at the tip, N m/kg; zero where that makes no difference.
     payload : float or None
         Mass at the tip, kg; None where another makes no difference to what holds the arm up.
+    payload_words : str
+        What that is called.
     payloads : (float, float)
         The least and the largest one that the model is good for, kg.
     sag, felt : array, (s, m) and (p, m)
@@ -150,6 +152,7 @@ class LinearMpcData:
     weight: Weight | None
     holds_more: Array
     payload: float | None
+    payload_words: str
     payloads: tuple[float, float]
     sag: Array
     felt: Array
@@ -219,6 +222,7 @@ def linear_mpc_data(controller: LinearMpc) -> LinearMpcData:
         holds=level[0],
         holds_more=level[1] - level[0],
         payload=lift.payload if lift.carries else None,
+        payload_words=lift.words,
         payloads=controller.payloads if lift.carries else (0.0, 0.0),
         weight=_weight(lighter, heavier, count),
         sag=places.sag,

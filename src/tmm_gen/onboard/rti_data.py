@@ -14,6 +14,7 @@ from tmm_gen.control.holding import holding
 from tmm_gen.control.kalman import KalmanFilter
 from tmm_gen.control.motor_rows import Motors
 from tmm_gen.control.payload import laden, payload_of
+from tmm_gen.control.payload_body import beside_payload
 from tmm_gen.control.response import split_outputs
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.safe import BRAKE_TIME
@@ -78,6 +79,10 @@ class RtiData:
         Mass at the tip, kg; None where it is no parameter of the kernel.
     weight : Weight or None
         What holds up an arm in space.
+    payload_words : str
+        What that is called.
+    beside_payload : float
+        Of an arm in a plane, what else is at its tip, kg.
     load : SpacePayload or None
         Of an arm in space that takes another payload.
     target_torque, brake : array, (m,)
@@ -128,6 +133,8 @@ class RtiData:
     holds: Array
     holds_more: Array
     payload: float | None
+    payload_words: str
+    beside_payload: float
     weight: Weight | None
     load: SpacePayload | None
     target_torque: Array
@@ -201,6 +208,8 @@ def rti_data(controller: RealTimeIteration) -> RtiData:
         holds=held,
         holds_more=more,
         payload=payload,
+        payload_words=linear.lift.words,
+        beside_payload=0.0 if in_space else beside_payload(scene),
         weight=weight_of(arm_of(scene), arm_of(heavier), problem.count) if in_space else None,
         load=SpacePayload.of(scene, payload) if in_space and payload is not None else None,
         target_torque=goal.torque,

@@ -170,7 +170,7 @@ def _tellings(bench: Bench, carries: bool) -> list[_Telling]:
     if carries:
         mass = payload_of(bench.step.scene)
         assert mass is not None
-        doc = "mass at the end of the arm"
+        doc = bench.links.lift.words.replace("the tip", "the end of the arm")
         found.append(
             _Telling("carry", "numbers[0]", (FmuVariable("payload", "", "input", "kg", doc, (mass,)),))
         )

@@ -1,4 +1,4 @@
-"""An arm with another payload: the body at its tip, the last body of its file, or the last link of a chain."""
+"""An arm with another payload: at its tip, the body told to be it or the last of its file, or a chain's last link."""
 
 from __future__ import annotations
 
@@ -41,7 +41,10 @@ def payload_of(scene: Scene) -> Payload | None:
     data: Mapping[str, Any] = scene.source.data
     places = [("tip", data["tip"])] if data.get("tip") else []
     places += [(f"body.{k}", body) for k, body in reversed(list(enumerate(data.get("body", ()), start=1)))]
+    told = None if scene.control is None else scene.control.payload_body
     for place, table in places:
+        if told not in (None, table.get("name")):
+            continue
         if isinstance(mass := table.get("mass"), int | float) and mass > 0:
             keys = {f"{place}.{key}": table[key] for key in ("mass", "inertia") if key in table}
             return Payload(float(mass), "kg", keys)

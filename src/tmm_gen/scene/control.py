@@ -228,7 +228,8 @@ class Baselines(Table):
     ----------
     pd, pd_zv, pd_zvd : (proportional, derivative), optional
         Gains on the hub, N m/rad and N m s/rad: alone, and with a reference shaped to leave no vibration. Without
-        them: critical damping of the rigid arm at a quarter of its first frequency.
+        them: critical damping of the rigid arm at a quarter of its first frequency, or where that is not stable in
+        samples at a half, a quarter, ... of this.
     pd_id : (proportional, derivative), optional
         The same beside the torques of the rigid arm along a quintic.
     lqr : RegulatorWeights
@@ -267,6 +268,8 @@ class Control(Table):
     payload : float
         What models take the tip's mass times: a controller that is to do with more than the scene's mass may well
         reckon with some of it.
+    payload_body : str, optional
+        Name of the ``[[body]]`` whose mass that is, of an arm by parts; without it, of all that are outermost.
     weights, bounds, sensors, estimator, baselines
         Tables of their own.
     trajectory : Trajectory, optional
@@ -288,6 +291,12 @@ class Control(Table):
     delay: NonNegative = Field(default=0.0, description="from measurement to torque in s", examples=["0.01"])
     payload: Positive = Field(
         default=1.0, description="tip mass models reckon with, by the scene's", examples=["1.05"]
+    )
+    payload_body: str | None = Field(
+        default=None,
+        description="body whose mass is the payload",
+        examples=['"gripper"'],
+        json_schema_extra={"absent": "all that are outermost"},
     )
     weights: Weights = Field(default_factory=Weights, description="weights of the cost")
     bounds: Bounds = Field(description="what must be kept", examples=["torque = 3.0"])

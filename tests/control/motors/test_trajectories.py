@@ -13,7 +13,7 @@ from tmm_gen.control.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.course import course_of
+from tmm_gen.control.course import begins_elsewhere, course_of
 from tmm_gen.control.following import Following
 from tmm_gen.control.plane_frame import PlaneFrame
 from tmm_gen.control.pose import Pose, pose_in
@@ -22,7 +22,7 @@ from tmm_gen.control.terms import Wanted
 from tmm_gen.control.window import Window
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.emit import usual_controller
-from tmm_gen.scene import Scene, load_scene
+from tmm_gen.scene import Scene, load_scene, parse_scene
 
 ELBOW = Path(__file__).resolve().parents[3] / "scenes" / "elbow.toml"
 FLOOR = {"frame": "payload", "normal": [0.0, 2.0], "offset": -0.25, "margin": 0.01}
@@ -113,6 +113,30 @@ def test_a_part_stands_as_told(small: Scene) -> None:
         course = course_of(turned, Bench.of(turned).problem)
         assert course is not None
         assert_allclose(course.angles[-1], there, atol=1e-8)
+
+
+def test_a_file_that_begins_elsewhere_is_told_of(tmp_path: Path) -> None:
+    """By how much, and what to write; an arm that starts there is silent, and so is one a count of its encoder off."""
+    text = ELBOW.read_text() + '\n[control.trajectory]\nfile = "way.csv"\n'
+    (tmp_path / "way.csv").write_text("time,shoulder,elbow\n0,0.3,0\n0.5,0.4,-0.2\n1,0.5,-0.4\n")
+    scene = parse_scene(text, str(tmp_path / "elbow.toml"))
+
+    def told(each: Scene) -> list[str]:
+        bench = Bench.of(each)
+        assert bench.course is not None
+        return begins_elsewhere(each, bench.problem, bench.course)
+
+    (line,) = told(scene)
+    place = f"{tmp_path / 'elbow.toml'}:{text.count(chr(10))}: control.trajectory.file: 'way.csv'"
+    assert line.startswith(
+        f"{place} begins with the joint of motor 'shoulder' at 0.3 rad, 0.3 rad from where the arm"
+    )
+    assert "`angles = { upper = 0.3, forearm = 0.3 }` under [initial]" in line
+    for off, lines in ((0.0, 0), (0.003, 0), (0.01, 1)):  # it moves by 0.004 rad in a sample
+        assert (
+            len(told(scene.replace(**{"initial.angles": {"upper": 0.3 + off, "forearm": 0.3 + off}})))
+            == lines
+        )
 
 
 @pytest.mark.parametrize(

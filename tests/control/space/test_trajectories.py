@@ -12,7 +12,7 @@ from tmm_gen.closed_loop.compare import compare
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.course import course_of
+from tmm_gen.control.course import begins_elsewhere, course_of
 from tmm_gen.control.part_frame import end_of
 from tmm_gen.control.target import rest_with
 from tmm_gen.errors import UserError
@@ -65,6 +65,21 @@ def test_a_file_of_places_has_three_columns(
     scene = parse_scene(words + told, str(tmp_path / "reach.toml"))
     with pytest.raises(UserError, match=r"way\.csv, t = 0\.02 s: 'payload' cannot rest at"):
         _ = Bench.of(scene).course  # two motors keep the payload on a sphere, and the way is straight
+
+
+def test_a_file_that_begins_elsewhere_is_told_of(tmp_path: Path, words: str) -> None:
+    """And not where the arm starts there, as it says."""
+    (tmp_path / "way.csv").write_text("time,yaw,lift\n0,0,-0.2\n0.4,0.1,-0.1\n")
+    text, file = words + '\n[control.trajectory]\nfile = "way.csv"\n', str(tmp_path / "reach.toml")
+    told = []
+    for each in (text, text.replace("angles = { lift = -0.5 }", "angles = { yaw = 0, lift = -0.2 }")):
+        bench = Bench.of(parse_scene(each, file))
+        assert bench.course is not None
+        told.append(begins_elsewhere(bench.scene, bench.problem, bench.course))
+    (line,), silent = told
+    assert silent == []
+    assert "motor 'lift' at -0.2 rad, 0.3 rad from where" in line
+    assert "`angles = { yaw = 0, lift = -0.2 }` under [initial]" in line
 
 
 @pytest.mark.parametrize(

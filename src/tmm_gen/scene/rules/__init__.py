@@ -11,6 +11,7 @@ from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.beams import beams_given
 from tmm_gen.scene.rules.control import control_possible
 from tmm_gen.scene.rules.control_motors import motors_controlled
+from tmm_gen.scene.rules.control_payload import payload_by_parts
 from tmm_gen.scene.rules.control_trajectory import moves_by_parts
 from tmm_gen.scene.rules.drivetrain_signals import chain_inputs, chain_outputs
 from tmm_gen.scene.rules.drivetrains import (
@@ -78,6 +79,7 @@ RULES: tuple[Rule, ...] = (
     box_names,
     control_possible,
     moves_by_parts,
+    payload_by_parts,
 )
 
 

@@ -8,6 +8,7 @@ from tmm_gen.scene.control import Control
 from tmm_gen.scene.parts.document import PartsDocument
 from tmm_gen.scene.problem import Finding, Path
 from tmm_gen.scene.rules.control import told_by_name, within_reach
+from tmm_gen.scene.rules.control_payload import payload_in_plane
 from tmm_gen.scene.rules.control_sensors import sensed_in_plane
 from tmm_gen.scene.rules.control_trajectory import can_be_followed, can_be_kept
 from tmm_gen.scene.table import closest
@@ -42,6 +43,7 @@ def motors_controlled(document: PartsDocument) -> Iterator[Finding]:
     yield from can_be_kept(control, frames, "xy")
     yield from can_be_followed(control, motors, frames, "xy")
     yield from sensed_in_plane(document, control, motors)
+    yield from payload_in_plane(document, control)
 
 
 def motors_told(control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:

@@ -8,6 +8,7 @@ from tmm_gen.scene.control import Control
 from tmm_gen.scene.each import by_names
 from tmm_gen.scene.problem import Finding
 from tmm_gen.scene.rules.control_motors import motors_told
+from tmm_gen.scene.rules.control_payload import payload_in_space
 from tmm_gen.scene.rules.control_sensors import sensed_in_space
 from tmm_gen.scene.rules.control_trajectory import can_be_followed, can_be_kept
 from tmm_gen.scene.spatial.document import SpatialDocument
@@ -36,6 +37,7 @@ def motors_in_space_controlled(document: SpatialDocument) -> Iterator[Finding]:
     yield from can_be_followed(control, motors, frames, "xyz")
     yield from _beyond_limits(document, control, motors)
     yield from sensed_in_space(document, control, motors)
+    yield from payload_in_space(document, control, turned)
 
 
 def _beyond_limits(document: SpatialDocument, control: Control, motors: tuple[str, ...]) -> Iterator[Finding]:
