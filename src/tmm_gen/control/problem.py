@@ -75,6 +75,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.angle_bounds import hub_bounds, tip_bound
 from tmm_gen.control.motor_rows import Motors
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.terms import Assumed, Goal, Kind, MotorWeights, Pair
@@ -82,7 +83,7 @@ from tmm_gen.control.unsaid import Told
 from tmm_gen.errors import UserError
 from tmm_gen.resources import scenes_dir
 from tmm_gen.scene import Scene
-from tmm_gen.scene.control import Control, Sensors
+from tmm_gen.scene.control import Sensors
 from tmm_gen.scene.each import by_names, some_by_names
 from tmm_gen.scene.trajectory import Keep
 
@@ -249,7 +250,7 @@ def control_problem(scene: Scene) -> ControlProblem:
     start = motors.prescribed @ np.array([*np.zeros(scene.hub), *scene.initial.angles])
     reference = np.array(by_names(control.reference, names))
     bounds = control.bounds
-    rate, turning, hub = bounds.torque_rate, bounds.hub_rate, _hub_bounds(scene, control, motors)
+    rate, turning, hub = bounds.torque_rate, bounds.hub_rate, hub_bounds(scene, control, motors)
     low, high = np.array(by_names(bounds.torque, names)).T
     told = Told.by(motors, (low, high))
     return ControlProblem(
@@ -265,7 +266,7 @@ def control_problem(scene: Scene) -> ControlProblem:
         torque_rate=np.array(by_names(math.inf if rate is None else rate, names)),
         hub=hub,
         hub_rate=np.array(by_names(math.inf if turning is None else turning, names)),
-        tip=tuple(_tip_bound(control, float(way)) for way in reference - start),
+        tip=tuple(tip_bound(control, float(way)) for way in reference - start),
         weights=MotorWeights.of(control.weights, told),
         sensors=control.sensors,
         estimator=Assumed.of(control.estimator, told),
@@ -275,29 +276,3 @@ def control_problem(scene: Scene) -> ControlProblem:
 
 def _driven(scene: Scene) -> bool:
     return bool(scene.parts) and any(item.acts == "drive" for item in scene.inputs)
-
-
-def _hub_bounds(scene: Scene, control: Control, motors: Motors) -> tuple[Pair | None, ...]:
-    """Return the intervals of the hubs' angles: those of ``[control.bounds]``, within the joints' own limits."""
-    told: tuple[Pair | None, ...] = (None,) * motors.count
-    if control.bounds.hub is not None:
-        told = (*by_names(control.bounds.hub, motors.names),)
-    if scene.spatial is None:
-        return told
-    limits = (scene.spatial.joints[motor.place].limits for motor in motors.each)
-    return tuple(map(_within, told, limits))
-
-
-def _within(one: Pair | None, other: Pair | None) -> Pair | None:
-    """Return what two intervals have in common, where there are two."""
-    if one is None or other is None:
-        return one or other
-    return max(one[0], other[0]), min(one[1], other[1])
-
-
-def _tip_bound(control: Control, way: float) -> Pair | None:
-    """Return the interval of a tip's angle off its target: bounded beyond it, as seen from the start."""
-    if control.bounds.overshoot is None or way == 0.0:
-        return None
-    edge = control.bounds.overshoot * way
-    return (-math.inf, edge) if way > 0.0 else (edge, math.inf)

@@ -11,17 +11,16 @@ from numpy.typing import NDArray
 from tmm_gen.c_language.names import macros
 from tmm_gen.c_language.wrap import statement
 from tmm_gen.control.motor_rows import Motor
-from tmm_gen.control.qp import INFINITE
 from tmm_gen.control.rti import AWAY, FAR, FAR_AT_WALLS, MOVING, TURNED
 from tmm_gen.control.terms import Kind
-from tmm_gen.onboard.wall_text import WallText
+from tmm_gen.onboard.filter_text import FilterText
 
 AIM_TURNS = 12
 AIM_TOLERANCE = {"float64": 1e-9, "float32": 1e-4}
 
 
 @dataclass(frozen=True, eq=False)
-class RtiText(WallText):
+class RtiText(FilterText):
     """What the templates of a real-time iteration ask for.
 
     Parameters
@@ -117,27 +116,6 @@ class RtiText(WallText):
     def rolls_out(self) -> bool:
         """Whether a motion along the last plan is prepared."""
         return True
-
-    @property
-    def sets(self) -> int:
-        """How many gains there are: by sets of sensors behind the encoders, and the one far from the target."""
-        return len(self.data.gains)
-
-    @property
-    def every_sensor(self) -> int:
-        """Which of them is that of all sensors."""
-        return self.sets - 1 - self.far
-
-    @property
-    def far(self) -> bool:
-        """Whether other gains of the filter are used far from the target."""
-        return self.data.far is not None
-
-    @property
-    def gains_reach(self) -> str:
-        """How far from the target hubs may be for its gains, a list of numbers."""
-        assert self.data.far is not None
-        return self.numbers(np.minimum(self.data.far.reach, INFINITE))
 
     @property
     def bounds_angles(self) -> bool:
