@@ -162,6 +162,7 @@ def mpc(
     from tmm_gen.control.extremes import naming_extremes
     from tmm_gen.control.gears import conditions_of
     from tmm_gen.control.pd_gains import unstable_pd
+    from tmm_gen.control.predicted_swing import swings_too_fast
     from tmm_gen.control.walls import far_behind
 
     with naming_extremes(loaded):
@@ -176,11 +177,14 @@ def mpc(
 
             kinds = kinds or [BY_NAME[usual_controller(bench)]]
             require_solvers(kinds)
+            for said in swings_too_fast(bench, [kind.name for kind in kinds]):
+                click.echo(said, err=True)
             emit(bench, [kind.name for kind in kinds], folder, real, name, force, json_mode)
             return
         kinds = kinds or [kind for kind in CONTROLLERS if kind.compared(bench)]
         require_solvers(kinds)
-        for said in unstable_pd(bench, [kind.name for kind in kinds]):
+        names = [kind.name for kind in kinds]
+        for said in (*unstable_pd(bench, names), *swings_too_fast(bench, names)):
             click.echo(said, err=True)
         if bench.course is not None:
             for said in begins_elsewhere(loaded, bench.problem, bench.course):
