@@ -25,7 +25,7 @@ from mpc_space_speed import DERIVATIVES, PAGE, WALLED, Rows, measure
 from tmm_gen.cli.console import plain, progress
 from tmm_gen.files import write_whole
 
-HORIZONS = (31, 62, 93, 124)
+HORIZONS = (31, 46, 62, 93)
 JOINTS, SAMPLES = 13, 40
 SPARSE = "CasADi sqpmethod + hpipm, C"
 
