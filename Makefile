@@ -65,7 +65,7 @@ out/playground/%.html: examples/space/%.toml $(SITE) $(wildcard templates/playgr
 	@mkdir -p $(@D)
 	$(TMM) playground $< --integrators newmark --out $@
 
-bench: $(CORE) compiler  ## run every script of benchmarks/, results in out/bench
+bench: $(TEST) compiler  ## run every script of benchmarks/, results in out/bench
 	@mkdir -p out/bench
 	@set -e; for script in benchmarks/*.py; do \
 	    [ -e "$$script" ] || { echo "error: no scripts in benchmarks/" >&2; exit 1; }; \
