@@ -66,15 +66,16 @@ def test_the_finer_arm_shows_the_output(behind: Bench) -> None:
 
 
 @pytest.mark.compiler
-@pytest.mark.parametrize("kind", ["rti-zero", "rti", "mpc-links"])
+@pytest.mark.parametrize("kind", ["rti-zero", "rti", "mpc-links", "mpc-modes"])
 def test_torques_are_those_of_python(kind: str, behind: Bench) -> None:
     """Told of another payload and another reference on the way, and without encoders for three samples."""
     name, files = emit_controller(behind, kind)
     flags = ("-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror")
     emitted = EmittedController(name, files, present_sensors(behind.problem), flags=flags, motors=2)
     python: LinearMpc | RealTimeIteration
-    if kind == "mpc-links":
-        python = LinearMpc(behind.links, behind.problem, behind.inertia)
+    if kind.startswith("mpc"):
+        model = behind.links if kind == "mpc-links" else behind.modes
+        python = LinearMpc(model, behind.problem, behind.inertia)
     else:
         python = RealTimeIteration(behind.step, behind.links, behind.inertia, kind == "rti-zero")
         python.estimator = NonlinearFilter(behind.step, behind.links)

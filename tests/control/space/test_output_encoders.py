@@ -11,6 +11,7 @@ from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.extended_kalman import NonlinearFilter
 from tmm_gen.control.kalman import present_sensors
+from tmm_gen.control.linear_mpc import LinearMpc
 from tmm_gen.control.motors import motors_of
 from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.target import rest_with
@@ -44,15 +45,19 @@ def test_the_rotor_is_ahead_by_what_winds_the_gear_up(behind: Bench, reach: Scen
 
 
 @pytest.mark.compiler
-@pytest.mark.parametrize("kind", ["rti-zero", "rti"])
+@pytest.mark.parametrize("kind", ["rti-zero", "rti", "mpc-links"])
 def test_torques_are_those_of_python(kind: str, behind: Bench) -> None:
     """Told of another payload, another reference and a way, and without encoders for three samples."""
     name, files = emit_controller(behind, kind)
     flags = ("-O0", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror")
     emitted = EmittedController(name, files, present_sensors(behind.problem), flags=flags, motors=2)
-    python = RealTimeIteration(behind.step, behind.links, behind.inertia, kind == "rti-zero")
-    python.estimator = NonlinearFilter(behind.step, behind.links)
-    python.reset()
+    python: LinearMpc | RealTimeIteration
+    if kind == "mpc-links":
+        python = LinearMpc(behind.links, behind.problem, behind.inertia)
+    else:
+        python = RealTimeIteration(behind.step, behind.links, behind.inertia, kind == "rti-zero")
+        python.estimator = NonlinearFilter(behind.step, behind.links)
+        python.reset()
     plant = plant_of(behind.scene, behind.problem, CONDITIONS[1])
     assert_allclose(plant.measured()[:2], behind.problem.start, atol=2.0 * np.pi / 65536)
     ahead = np.linspace([0.5, 0.0], [0.6, 0.1], behind.problem.horizon)
