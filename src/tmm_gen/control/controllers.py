@@ -21,9 +21,7 @@ from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.shaper import Kind, shaper, slowest_vibration
 from tmm_gen.control.walls import keeps_no_walls
 from tmm_gen.control.way import Way, shaped_way, stepped_way
-from tmm_gen.control.where import where
 from tmm_gen.control.window import Window
-from tmm_gen.errors import UserError
 from tmm_gen.scene.control import Baselines
 from tmm_gen.scene.each import Each, by_names
 
@@ -60,17 +58,16 @@ class ControllerKind:
     default: bool = True
     quadratic: bool = False
     arms_by_parts: bool = False
-    follows: bool = True
     keeps: bool | None = None
 
     def compared(self, bench: Bench) -> bool:
         """Return whether it is compared on an arm unless others are chosen."""
-        if (bench.follows and not self.follows) or (bench.problem.keeps and self.keeps is False):
+        if bench.problem.keeps and self.keeps is False:
             return False
         return self.default or (self.arms_by_parts and not bench.problem.motors.on_hub)
 
     def require_able(self, bench: Bench) -> None:
-        """Refuse a trajectory that it cannot follow, and walls that it cannot keep.
+        """Refuse walls that it cannot keep.
 
         Raises
         ------
@@ -80,12 +77,6 @@ class ControllerKind:
         if bench.problem.keeps and self.keeps is False:
             others = ", ".join(kind.name for kind in CONTROLLERS if kind.keeps)
             raise keeps_no_walls(bench.scene, self.name, others)
-        if bench.follows and not self.follows:
-            others = ", ".join(kind.name for kind in CONTROLLERS if kind.follows)
-            raise UserError(
-                f"{where(bench.scene, 'control.trajectory')}: the controller '{self.name}' follows none; "
-                f"take one of {others}."
-            )
 
 
 def _gains(bench: Bench, gains: Each[tuple[float, float]] | None) -> tuple[Array, Array]:
@@ -183,7 +174,7 @@ CONTROLLERS: tuple[ControllerKind, ...] = (
         quadratic=True,
         keeps=True,
     ),
-    ControllerKind("nmpc", "NMPC to convergence", _nmpc, default=False, follows=False, keeps=False),
+    ControllerKind("nmpc", "NMPC to convergence", _nmpc, default=False, keeps=True),
 )
 
 BY_NAME = {kind.name: kind for kind in CONTROLLERS}

@@ -1,7 +1,7 @@
 """Nonlinear model predictive control to convergence, by CasADi: the reference of the real-time iterations.
 
-Multiple shooting, stage by stage: ``(u_k, s_k, r_k)`` of all motors and the state after it, with the last torques as
-more states, since their changes are weighed. fatrop exploits the stages (L. Vanroye, A. Sathya, J. De Schutter,
+Multiple shooting, stage by stage: torques, a slack for each soft bound, and the state after them, with the last torques
+as more states, since their changes are weighed. fatrop exploits the stages (L. Vanroye, A. Sathya, J. De Schutter,
 W. Decre, FATROP, 2023); IPOPT takes the same problem as a sparse one.
 """
 
@@ -17,12 +17,11 @@ from numpy.typing import NDArray
 from tmm_gen.control.command import Command, Status
 from tmm_gen.control.extended_kalman import ExtendedKalmanFilter
 from tmm_gen.control.linear import LinearModel
-from tmm_gen.control.links import rest_state
-from tmm_gen.control.model_based import ModelBased
+from tmm_gen.control.movable import Movable
 from tmm_gen.control.step_model import StepModel
 from tmm_gen.control.terminal import end_rows
-from tmm_gen.control.where import where
-from tmm_gen.errors import UserError
+from tmm_gen.control.terms import Kind
+from tmm_gen.control.walls import Wall
 
 Array = NDArray[np.float64]
 Solver = Literal["fatrop", "ipopt"]
@@ -42,19 +41,24 @@ _OPTIONS: dict[str, dict[str, Any]] = {
 }
 
 
-@dataclass(frozen=True, eq=False)
-class _Stages:
-    """The nonlinear programme as CasADi takes it, and its bounds."""
+_OUTPUTS = ("tip", "tip_rate", "hub", "hub_rate")
+"""In the order of :attr:`Movable.rows`."""
 
-    problem: dict[str, Any]
-    equality: list[bool]
+
+@dataclass(frozen=True, eq=False)
+class _Programme:
+    """The nonlinear programme of a model as CasADi takes it, and its bounds; rows ``of_tips`` bound tips."""
+
+    model: StepModel
+    solve: Any
     low: Array
     high: Array
     low_rows: Array
     high_rows: Array
+    of_tips: NDArray[np.bool_]
 
 
-class FullNmpc(ModelBased):
+class FullNmpc(Movable):
     """Solves the nonlinear problem to convergence at every sample.
 
     Parameters
@@ -67,23 +71,19 @@ class FullNmpc(ModelBased):
         What each motor turns, kg m^2, for the safe law.
     solver : {"fatrop", "ipopt"}
         What solves it.
-
-    Raises
-    ------
-    UserError
-        If rates of hubs are bounded.
     """
 
     def __init__(
         self, model: StepModel, linear: LinearModel, inertia: Array, solver: Solver = "fatrop"
     ) -> None:
-        self.model, self.linear, self.solver = model, linear, solver
-        if np.any(np.isfinite(model.problem.hub_rate)):
-            raise UserError(
-                f"{where(model.scene, 'control.bounds.hub_rate')}: the controller 'nmpc' does not keep "
-                "it; take 'rti', or remove the key."
-            )
+        self.model = self.unchanged = model
+        self.linear, self.solver = linear, solver
+        self.walls = tuple(Wall.of(model.scene, keep) for keep in model.problem.keeps)
+        self.end = end_rows(linear, model.problem.weights)
+        self.kinds = model.problem.kinds(linear.goal)
+        self.slacks = tuple(kind for kind in self.kinds if kind.soft)
         self._guess: Array | None = None
+        self._built: _Programme | None = None
         super().__init__(model.problem, ExtendedKalmanFilter(model, linear), model.delay, inertia)
 
     def _forget(self) -> None:
@@ -91,116 +91,113 @@ class FullNmpc(ModelBased):
 
     @cached_property
     def width(self) -> int:
-        """Variables of a stage: the state with the last torques, then torques and two slacks of each motor."""
-        return self.model.size + 4 * self.problem.count
+        """Variables of a stage: the state with the last torques, then torques and slacks."""
+        return self.model.size + 2 * self.problem.count + len(self.slacks)
 
-    @cached_property
-    def stages(self) -> _Stages:
-        """The nonlinear programme."""
+    @property
+    def programme(self) -> _Programme:
+        """The nonlinear programme of what is carried now."""
+        if self._built is None or self._built.model is not self.model:
+            self._built = self._programme()
+        return self._built
+
+    def _programme(self) -> _Programme:
         import casadi as ca
 
-        problem, size = (
-            self.model.problem,
-            self.model.size,
-        )  # its bounds are the scene's, whatever was told since
-        weights = problem.weights
-        count, motors, goal = problem.horizon, problem.count, self.linear.goal
+        problem, size = self.model.problem, self.model.size
+        weights, count, motors = problem.weights, problem.horizon, problem.count
         wide = size + motors
         state = [ca.MX.sym(f"x{k}", wide) for k in range(count + 1)]
-        free = [ca.MX.sym(f"u{k}", 3 * motors) for k in range(count)]
+        free = [ca.MX.sym(f"u{k}", motors + len(self.slacks)) for k in range(count)]
         given = ca.MX.sym("given", wide + motors)  # state, last torques, disturbances
+        wanted = ca.MX.sym("wanted", 5 * motors, count)  # outputs, then torques
+        rest = ca.MX.sym("rest", wide)
         disturbance = given[wide:]
         acting = ca.vertcat(disturbance, disturbance)
+        weighed = np.concatenate([getattr(weights, name) for name in _OUTPUTS])
+        softly = np.array([kind.weight for kind in self.slacks])
         rows: list[Any] = [state[0] - given[:wide]]
-        equality, low_rows, high_rows = [True] * wide, [0.0] * wide, [0.0] * wide
+        low_rows, high_rows, of_tips, equality = [0.0] * wide, [0.0] * wide, [False] * wide, [True] * wide
         cost: Any = 0.0
         for k in range(count):
-            torque, slacks = (
-                free[k][:motors],
-                {"tip": free[k][motors : 2 * motors], "hub": free[k][2 * motors :]},
-            )
+            torque, slacks = free[k][:motors], free[k][motors:]
             change = torque - state[k][size:]
             after = self.model.sample(state[k][:size], ca.vertcat(state[k][size:], torque) + acting)
             rows.append(state[k + 1] - ca.vertcat(after, torque))
-            equality += [True] * wide
             low_rows += [0.0] * wide
             high_rows += [0.0] * wide
-            cost += 0.5 * _weighed(weights.torque, torque - goal.torque + disturbance)
-            cost += 0.5 * _weighed(weights.torque_step, change)
-            cost += 0.5 * _weighed(weights.overshoot, slacks["tip"])
-            cost += 0.5 * _weighed(weights.hub_bound, slacks["hub"])
-            cost += 0.5 * self._stage_cost(after)
-            for kind in problem.kinds(goal):
-                if kind.what == "rate":
-                    rows.append(change[kind.motor])
-                    equality.append(False)
-                    low_rows.append(kind.low)
-                    high_rows.append(kind.high)
-                    continue
-                value, slack = self._angles(kind.what, after)[kind.motor], slacks[kind.what][kind.motor]
+            of_tips += [False] * wide
+            equality += [True] * wide
+            seen = ca.mtimes(ca.DM(self.rows), after)
+            cost += _weighed(weights.torque, torque - wanted[4 * motors :, k] + disturbance)
+            cost += _weighed(weights.torque_step, change) + _weighed(softly, slacks)
+            cost += _weighed(weighed, seen - wanted[: 4 * motors, k])
+            for kind in self.kinds:
+                slack = slacks[self.slacks.index(kind)] if kind.soft else 0.0
+                value = change[kind.motor] if kind.what == "rate" else self._bounded(kind, seen, after)
                 for bound, upper in ((kind.low, False), (kind.high, True)):
                     if np.isfinite(bound):
                         rows.append(value - slack if upper else value + slack)
                         low_rows.append(-np.inf if upper else bound)
                         high_rows.append(bound if upper else np.inf)
+                        of_tips.append(kind.what == "tip")
                         equality.append(False)
-        rest = np.append(rest_state(self.model, self.linear), goal.torque)
         left = state[-1] - rest + ca.vertcat(np.zeros(size), disturbance)
-        cost += 0.5 * ca.sumsqr(ca.mtimes(end_rows(self.linear, weights), left))
+        cost += 0.5 * ca.sumsqr(ca.mtimes(self.end, left))
         variables = [part for pair in zip(state, free, strict=False) for part in pair] + [state[-1]]
         low, high = np.full((count, self.width), -np.inf), np.full((count, self.width), np.inf)
-        low[:, wide : wide + motors], high[:, wide : wide + motors] = problem.torque
         unbounded = np.full(wide, np.inf)
-        return _Stages(
-            {"x": ca.vertcat(*variables), "f": cost, "g": ca.vertcat(*rows), "p": given},
-            equality,
+        options = dict(_OPTIONS[self.solver])
+        if self.solver == "fatrop":
+            options["equality"] = equality
+        told = {
+            "x": ca.vertcat(*variables),
+            "f": cost,
+            "g": ca.vertcat(*rows),
+            "p": ca.vertcat(given, ca.vec(wanted), rest),
+        }
+        return _Programme(
+            self.model,
+            ca.nlpsol("nmpc", self.solver, told, options),
             np.concatenate([low.ravel(), -unbounded]),
             np.concatenate([high.ravel(), unbounded]),
             np.array(low_rows),
             np.array(high_rows),
+            np.array(of_tips),
         )
 
-    def _angles(self, name: str, state: Any) -> Any:
-        """Return the angles of a state's tips or hubs, or their rates, (m,)."""
+    def _bounded(self, kind: Kind, seen: Any, state: Any) -> Any:
+        """Return what a kind of rows bounds after a sample: one of the outputs, or how far a part is from a wall."""
         import casadi as ca
 
-        motors = self.model.motors
-        rows = motors.tip if name.startswith("tip") else motors.hub
-        return ca.mtimes(ca.DM(self.model.rows(rows, "rate" if name.endswith("rate") else "angle")), state)
-
-    def _stage_cost(self, state: Any) -> Any:
-        weights, goal = self.problem.weights, self.linear.goal
-        return (
-            _weighed(weights.tip, self._angles("tip", state) - goal.tip)
-            + _weighed(weights.hub, self._angles("hub", state) - goal.hub)
-            + _weighed(weights.tip_rate, self._angles("tip_rate", state))
-            + _weighed(weights.hub_rate, self._angles("hub_rate", state))
-        )
-
-    @cached_property
-    def function(self) -> Any:
-        """The solver."""
-        import casadi as ca
-
-        options = dict(_OPTIONS[self.solver])
-        if self.solver == "fatrop":
-            options["equality"] = self.stages.equality
-        return ca.nlpsol("nmpc", self.solver, self.stages.problem, options)
+        if kind.what != "keep":
+            return seen[_OUTPUTS.index(kind.what) * self.problem.count + kind.motor]
+        angles = ca.SX.sym("angles", len(self.model.motors.lengths))
+        along = self.walls[kind.motor].along_of(ca.vertsplit(angles))
+        return ca.Function("along", [angles], [along])(state[self.model.places("angle")])
 
     def decide(self, state: Array, disturbance: Array, last: Array) -> Command:
         """Solve the nonlinear problem from the last solution shifted; see :class:`ModelBased`."""
-        size, count, stages = self.model.size, self.problem.count, self.stages
+        size, count, built = self.model.size, self.problem.count, self.programme
         none = np.zeros(count)
         guess = self._first(state, last) if self._guess is None else self._guess
-        found = self.function(
+        low, high = built.low.copy(), built.high.copy()
+        for bounds, torque in ((low, self.problem.torque[0]), (high, self.problem.torque[1])):
+            stages = bounds[: self.problem.horizon * self.width].reshape(-1, self.width)
+            stages[:, size + count : size + 2 * count] = torque
+        unbounded = built.of_tips & self.moved
+        wanted, still = self._wanted()
+        each = (wanted.tip, wanted.tip_rate, wanted.hub, wanted.hub_rate, wanted.torque)
+        stacked = np.vstack([np.broadcast_to(rows, (count, self.problem.horizon)) for rows in each])
+        found = built.solve(
             x0=guess,
-            p=np.concatenate([state, last, disturbance]),
-            lbx=stages.low,
-            ubx=stages.high,
-            lbg=stages.low_rows,
-            ubg=stages.high_rows,
+            p=np.concatenate([state, last, disturbance, stacked.ravel("F"), still.state, still.torque]),
+            lbx=low,
+            ubx=high,
+            lbg=np.where(unbounded, -np.inf, built.low_rows),
+            ubg=np.where(unbounded, np.inf, built.high_rows),
         )
-        statistics = self.function.stats()
+        statistics = built.solve.stats()
         point = np.array(found["x"]).ravel()
         iterations = int(statistics.get("iter_count", 0))
         if not np.all(np.isfinite(point)):
@@ -215,12 +212,12 @@ class FullNmpc(ModelBased):
     def _first(self, state: Array, last: Array) -> Array:
         """Return a first guess: the arm stays where it is."""
         count = self.problem.count
-        stage = np.concatenate([state, last, self.linear.goal.torque, np.zeros(2 * count)])
+        stage = np.concatenate([state, last, self.goal.torque, np.zeros(len(self.slacks))])
         return np.concatenate([np.tile(stage, self.problem.horizon), stage[: self.model.size + count]])
 
 
 def _weighed(weights: Array, values: Any) -> Any:
-    """Return the weighed sum of squares."""
+    """Return half the weighed sum of squares."""
     import casadi as ca
 
-    return ca.dot(ca.DM(weights), values**2)
+    return 0.5 * ca.dot(ca.DM(weights), values**2)

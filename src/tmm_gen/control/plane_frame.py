@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +38,10 @@ class PlaneFrame:
 
     def place(self, angles: Array) -> Array:
         """Return where it is, (2,) or (k, 2), m, for the arm's angles, (d,) or (k, d), rad."""
+        return np.asarray(self.place_of(angles), float)
+
+    def place_of(self, angles: NDArray[Any]) -> NDArray[Any]:
+        """Return the same of angles that may be symbols."""
         return np.stack([np.cos(angles) @ self.lengths, np.sin(angles) @ self.lengths], axis=-1)
 
     def slopes(self, angles: Array) -> Array:

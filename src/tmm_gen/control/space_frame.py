@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,7 +47,11 @@ class SpaceFrame:
 
     def place(self, angles: Array) -> Array:
         """Return where it is, (..., 3), m, for the arm's angles, (..., d), rad."""
-        return np.asarray(self._tree.places(angles).frame(self.frame)[1], float)
+        return np.asarray(self.place_of(angles), float)
+
+    def place_of(self, angles: NDArray[Any]) -> NDArray[Any]:
+        """Return the same of angles that may be symbols."""
+        return self._tree.places(angles).frame(self.frame)[1]
 
     def slopes(self, angles: Array) -> Array:
         """Return the derivatives of its place by the angles, (..., 3, d): what each joint turns about itself."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,6 +84,11 @@ class Wall:
     def along(self, angles: Array) -> Array:
         """Return how far the part is along the normal, (k,), m, for angles of the arm, (k, d), rad."""
         return np.asarray(self.frame.place(angles) @ self.normal, float)
+
+    def along_of(self, angles: Sequence[Any]) -> Any:
+        """Return the same of one pose as an expression, for symbols of CasADi."""
+        place = self.frame.place_of(np.array(angles, dtype=object))
+        return sum(float(share) * each for share, each in zip(self.normal, place, strict=True))
 
     def slopes(self, angles: Array) -> Array:
         """Return the derivatives by the angles, (k, d)."""

@@ -11,12 +11,15 @@ from numpy.testing import assert_allclose
 from tmm_gen.closed_loop.compare import Trial, compare
 from tmm_gen.control.arms import arm_of
 from tmm_gen.control.bench import Bench
+from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
 from tmm_gen.control.course import begins_elsewhere, course_of
 from tmm_gen.control.following import Following
+from tmm_gen.control.full_nmpc import FullNmpc
 from tmm_gen.control.plane_frame import PlaneFrame
 from tmm_gen.control.pose import Pose, pose_in
+from tmm_gen.control.rti import RealTimeIteration
 from tmm_gen.control.target import rest_with
 from tmm_gen.control.terms import Wanted
 from tmm_gen.control.window import Window
@@ -267,8 +270,28 @@ def test_controllers_follow_and_without_a_wall_the_payload_goes_through_it(lower
     with pytest.raises(UserError, match=r":\d+: control\.keep: .* keeps no walls; take rti-zero, rti"):
         BY_NAME["mpc-links"].require_able(walled)
     assert usual_controller(walled) == "rti-zero"  # and not one that would be refused then
-    with pytest.raises(UserError, match=r":\d+: control\.trajectory: .* follows none; take one of pd,"):
-        BY_NAME["nmpc"].require_able(lowered)
+
+
+@pytest.mark.compiler
+def test_real_time_iterations_on_a_way_come_to_the_nonlinear_optimum(lowered: Bench) -> None:
+    """Repeated at one state, with a payload that was told; told of another way the optimum is another."""
+    rti = RealTimeIteration(lowered.step, lowered.links, lowered.inertia)
+    full = FullNmpc(lowered.step, lowered.links, lowered.inertia)
+    course, last = lowered.course, lowered.links.start_torque
+    assert course is not None
+    state, none, found = lowered.step.initial(), np.zeros(2), []
+    for sample in (0, 12):
+        for each in (rti, full):
+            assert each.follow(course.ahead(sample, lowered.problem.horizon)) is Status.OK
+            assert each.carry(0.25) is Status.OK
+        expected = full.decide(state, none, last)
+        for _ in range(12):
+            rti._plan = np.hstack([rti._plan[:, :1], rti._plan[:, :-1]])  # decide() moves on by a sample
+            torque = rti.decide(state, none, last).torque
+        assert expected.status.optimal
+        assert_allclose(torque, expected.torque, atol=1e-4 * np.max(lowered.problem.torque))
+        found.append(torque)
+    assert np.max(np.abs(found[1] - found[0])) > 0.01
 
 
 def test_what_turns_a_part_into_a_wall_is_how_its_place_changes(lowered: Bench) -> None:
