@@ -34,7 +34,7 @@ from tmm_gen.scene import load_scene
 ROOT = Path(__file__).parents[1]
 SCENE = ROOT / "scenes" / "elbow.toml"
 PAGE = ROOT / "docs" / "mpc.md"
-TRIED = ("nominal", "payload", "friction", "soft")
+TRIED = ("nominal", "payload", "friction", "soft", "gears")
 DURATION = 2.5
 REPEATS = 8
 NOT_COMPARED = ("pd-zv", "pd-zvd")
