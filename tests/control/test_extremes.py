@@ -32,7 +32,6 @@ def small(key: str, value: str) -> str:
 @pytest.mark.parametrize(
     ("key", "value", "controller"),
     [
-        ("control.sample_time", "1e-30", "lqr"),
         ("control.sample_time", "1e30", "mpc-modes"),
         ("control.weights.tip", "1e300", "mpc-modes"),
         ("control.weights.hub_rate", "1e30", "mpc-modes"),
@@ -79,3 +78,18 @@ def test_steps_too_long_for_any_filter_are_named_and_the_remedy_serves() -> None
     (more,) = re.findall(r"such as (\d+)", str(found.value))
     better = Bench.of(scene.replace(**{"control.substeps": int(more)}))
     NonlinearFilter(better.step, better.links)
+
+
+@pytest.mark.parametrize("pose", ["", "[[control.trajectory.pose]]\nangles = -0.05\nduration = 1.0\n"])
+def test_more_samples_than_can_be_kept_are_told_by_their_time(
+    pose: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In a loop as on a way; the line is that of the key."""
+    text = re.sub(r"(?m)^sample_time = \S+", "sample_time = 1e-9", FILE.read_text()) + pose
+    (tmp_path / "elbow.toml").write_text(text)
+    line = text[: text.index("sample_time")].count("\n") + 1
+    words = ["mpc", str(tmp_path / "elbow.toml"), "--controller", "pd", "--condition", "nominal"]
+    assert main([*words, "--until", "2"]) == 2
+    told = capsys.readouterr().err
+    assert f"elbow.toml:{line}: control.sample_time: makes {'1' if pose else '2'}e+09 samples" in told
+    assert "Write a longer one" in told

@@ -17,6 +17,7 @@ from tmm_gen.control.condition import Condition
 from tmm_gen.control.controllers import ControllerKind
 from tmm_gen.control.gears import giving_way
 from tmm_gen.control.kalman import present_sensors
+from tmm_gen.control.sample_count import require_countable
 from tmm_gen.onboard.emit import EMITTED, emit_controller
 from tmm_gen.onboard.native import EmittedController
 
@@ -113,8 +114,10 @@ def compare(
     Raises
     ------
     UserError
-        If the motor cannot hold the target, or there is no gear that could give way under a condition of gears.
+        If the motor cannot hold the target, there is no gear that could give way under a condition of gears, or
+        samples are too many.
     """
+    require_countable(bench.scene, duration, bench.problem.sample_time)
     for condition in conditions:
         if condition.twist:
             giving_way(bench.scene, condition.twist)  # to be refused before others have taken their time

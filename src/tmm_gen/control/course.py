@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.control.problem import ControlProblem
 from tmm_gen.control.reach import Somewhere, rest_with_frame
+from tmm_gen.control.sample_count import require_countable
 from tmm_gen.control.target import Target, require_within, rest_with
 from tmm_gen.control.where import where
 from tmm_gen.errors import UserError
@@ -106,6 +107,7 @@ def _initial(scene: Scene, problem: ControlProblem, hub: Array) -> Iterator[tupl
 
 def _quintics(scene: Scene, problem: ControlProblem, way: Trajectory) -> Iterator[Array]:
     """Yield the angles at all samples, stretch by stretch: from pose to pose, and the rests there."""
+    require_countable(scene, sum(pose.duration + pose.dwell for pose in way.pose), problem.sample_time)
     begin, now, sample = problem.start, 0.0, 0
     for number, pose in enumerate(way.pose, 1):
         key = f"control.trajectory.pose[{number}]"
@@ -138,6 +140,7 @@ def _from_file(scene: Scene, problem: ControlProblem, way: Trajectory, path: Pat
         if isinstance(table, Table)
     ]
     last = float(tables[0].times[-1])
+    require_countable(scene, last, problem.sample_time)
     instants = problem.sample_time * np.arange(int(np.ceil(last / problem.sample_time - 1e-9)) + 1)
     told = np.column_stack([through(table).at(np.minimum(instants, last)) for table in tables])
     if way.frame is None:
