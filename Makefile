@@ -65,12 +65,12 @@ out/playground/%.html: examples/space/%.toml $(SITE) $(wildcard templates/playgr
 	@mkdir -p $(@D)
 	$(TMM) playground $< --integrators newmark --out $@
 
-bench: $(TEST) compiler  ## run every script of benchmarks/, results in out/bench
-	@mkdir -p out/bench
-	@set -e; for script in benchmarks/*.py; do \
-	    [ -e "$$script" ] || { echo "error: no scripts in benchmarks/" >&2; exit 1; }; \
-	    echo "$(PY) $$script --out out/bench"; $(PY) "$$script" --out out/bench; \
-	done
+bench: $(TEST) compiler  ## run every script of benchmarks/ (a day); what each prints is kept in out/bench
+	@mkdir -p out/bench; trap "exit 130" INT; failed=""; for script in benchmarks/*.py; do \
+	    name=$$(basename $$script .py); echo "$(PY) $$script > out/bench/$$name.txt"; \
+	    $(PY) $$script > out/bench/$$name.txt 2>&1 || failed="$$failed $$name"; \
+	done; \
+	[ -z "$$failed" ] || { echo "error: these did not end well, see out/bench/*.txt:$$failed" >&2; exit 1; }
 
 clean:  ## remove the environment, caches and all outputs
 	rm -rf $(VENV) .venv-lint out build dist .hypothesis .mypy_cache .pytest_cache .ruff_cache

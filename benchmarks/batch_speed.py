@@ -20,7 +20,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from marks import renewed
+from support.marks import renewed
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.csv_text import csv_text

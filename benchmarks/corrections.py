@@ -19,8 +19,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from marks import renewed
 from numpy.typing import NDArray
+from support.marks import renewed
 
 from tmm_gen.errors import UserError
 from tmm_gen.files import write_whole

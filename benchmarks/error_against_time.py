@@ -22,7 +22,7 @@ import numpy as np
 from against_time.contenders import LANES, Contender, contenders, useful
 from against_time.page import told
 from against_time.picture import Curve, curves_of, speed_picture
-from marks import renewed
+from support.marks import renewed
 from time_to_error import CHECKPOINTS, arm
 
 from tmm_gen.cli.console import progress

@@ -12,7 +12,7 @@ import argparse
 import statistics
 from pathlib import Path
 
-from marks import renewed
+from support.marks import renewed
 from time_to_error import arm
 
 from tmm_gen.files import write_whole

@@ -10,6 +10,7 @@ against all `double`.
 
 from __future__ import annotations
 
+import argparse
 import subprocess
 import tempfile
 from pathlib import Path
@@ -90,6 +91,7 @@ def tip(singles: set[str]) -> np.ndarray:
 
 
 def main() -> None:
+    argparse.ArgumentParser(description=__doc__).parse_args()
     right, rows = tip(set()), []
     peak = float(np.max(np.abs(right)))
     with progress("simulating", total=len(CASES)) as advance:

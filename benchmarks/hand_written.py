@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from marks import renewed
 from numpy.typing import NDArray
 from peers.joint_arm import pointer
+from support.marks import renewed
 from time_to_error import FLAGS, USUAL, arm
 
 from tmm_gen.files import write_whole

@@ -19,7 +19,7 @@ from typing import Any
 os.environ["XLA_FLAGS"] = "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
 
 import numpy as np
-from marks import renewed
+from support.marks import renewed
 
 from tmm_gen.csv_text import csv_text
 from tmm_gen.extras import install, packages

@@ -15,7 +15,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
-from marks import renewed
+from support.marks import renewed
 from support.mpc_on_board import BoardRun, run_on_board
 
 from tmm_gen.cli.console import plain, progress, table

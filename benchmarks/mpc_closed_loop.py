@@ -24,7 +24,7 @@ from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from marks import renewed
+from support.marks import renewed
 from support.mpc_random_loops import RandomOutcome, draw, run_case
 
 from tmm_gen.cli.console import Column, plain, progress, table

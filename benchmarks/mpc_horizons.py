@@ -19,8 +19,8 @@ from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from marks import renewed
 from mpc_space_speed import DERIVATIVES, PAGE, WALLED, Rows, measure
+from support.marks import renewed
 
 from tmm_gen.cli.console import plain, progress
 from tmm_gen.files import write_whole

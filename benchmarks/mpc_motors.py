@@ -15,7 +15,7 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
-from marks import renewed
+from support.marks import renewed
 
 from tmm_gen.cli.console import Column, plain, progress, table
 from tmm_gen.closed_loop.compare import made

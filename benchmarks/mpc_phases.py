@@ -13,9 +13,9 @@ from collections.abc import Sequence
 
 import mpc_speed
 import numpy as np
-from marks import renewed
 from mpc_solvers.record import emitted, record
 from mpc_solvers.task import arm
+from support.marks import renewed
 
 from tmm_gen.cli.console import Column, table
 from tmm_gen.control.bench import Bench

@@ -20,9 +20,9 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
-from marks import renewed
 from numpy.typing import NDArray
 from support.carrying import payload_of
+from support.marks import renewed
 
 from tmm_gen.cli.console import progress
 from tmm_gen.closed_loop.compare import made

@@ -18,10 +18,10 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
-from marks import renewed
 from mpc_solvers.record import emitted
 from mpc_solvers.task import arm_in_space
 from numpy.typing import NDArray
+from support.marks import renewed
 
 from tmm_gen.cli.console import Column, table
 from tmm_gen.closed_loop.loop import run_loop

@@ -27,7 +27,6 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import casadi as ca
 import numpy as np
-from marks import renewed
 from mpc_solvers.compiled import compiled
 from mpc_solvers.interior import Fatrop
 from mpc_solvers.motion import Motion
@@ -36,6 +35,7 @@ from mpc_solvers.record import Converged, Record, emitted, record, time_emitted,
 from mpc_solvers.stage import Stage
 from mpc_solvers.task import arm_in_space
 from mpc_speed import OTHERS, Other
+from support.marks import renewed
 
 from tmm_gen.cli.console import Column, plain, progress, table
 from tmm_gen.control.bench import Bench

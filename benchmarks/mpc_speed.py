@@ -30,7 +30,6 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import casadi as ca
 import numpy as np
-from marks import renewed
 from mpc_solvers.do_mpc_controller import DoMpc
 from mpc_solvers.motion import Motion
 from mpc_solvers.page import section
@@ -38,6 +37,7 @@ from mpc_solvers.record import Converged, Solver, emitted, record, time_emitted,
 from mpc_solvers.sequential import Sequential
 from mpc_solvers.stage import Stage
 from mpc_solvers.task import arm
+from support.marks import renewed
 
 from tmm_gen.cli.console import Column, plain, progress, table
 from tmm_gen.control.bench import Bench

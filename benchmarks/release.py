@@ -17,8 +17,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from marks import renewed
 from numpy.typing import NDArray
+from support.marks import renewed
 from time_to_error import CHECKPOINTS, FLAGS, Make, arm
 
 from tmm_gen.files import write_whole

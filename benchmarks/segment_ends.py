@@ -21,10 +21,10 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from marks import renewed
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.optimize import brentq
+from support.marks import renewed
 
 from tmm_gen.cli.console import Column, table
 from tmm_gen.csv_text import csv_text

@@ -23,11 +23,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from marks import renewed
 from numpy.typing import NDArray
 from peers.joint_arm import FLAGS
 from peers.pinocchio import HOW_TO_GET, has_headers, installed
 from peers.tree import ArticulatedTree, Peer, PinocchioTree, compiled, driven
+from support.marks import renewed
 
 from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.csv_text import csv_text

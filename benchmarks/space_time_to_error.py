@@ -20,11 +20,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from marks import renewed
 from peers.joint_arm import FLAGS
 from peers.pinocchio import HOW_TO_GET, has_headers, installed
 from peers.tree import ArticulatedTree, Peer, PinocchioTree, compiled, driven
 from space_speed import TORQUES, Array, arms
+from support.marks import renewed
 
 from tmm_gen.csv_text import csv_text
 from tmm_gen.derive.integrators.registry import integrator

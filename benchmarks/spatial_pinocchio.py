@@ -1,11 +1,12 @@
 """The reference of arms in space against Pinocchio, at random states of random arms: inverse and forward dynamics.
 
 Pinocchio is no dependency: where it cannot be imported, this says how to get it. Run it as
-``python benchmarks/spatial_pinocchio.py [ARMS]``.
+``python benchmarks/spatial_pinocchio.py [--arms 200]``.
 """
 
 from __future__ import annotations
 
+import argparse
 import sys
 from types import ModuleType
 from typing import Any
@@ -68,11 +69,13 @@ def _whole(upper: np.ndarray, armature: np.ndarray) -> np.ndarray:
 
 def main() -> None:
     """Print the largest differences over all arms."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--arms", type=int, default=200)
+    arms = parser.parse_args().arms
     try:
         import pinocchio as pin
     except ImportError:
         sys.exit(f"Pinocchio is not here: {HOW_TO_GET}")
-    arms = int(sys.argv[1]) if len(sys.argv) > 1 else 200
     worst = np.max([differences(pin, seed) for seed in range(arms)], axis=0)
     print(f"Pinocchio {pin.__version__}, {arms} arms, {STATES} states each; largest relative differences:")
     for name, value in zip(("rnea, torques", "aba, accelerations", "crba, mass matrix"), worst, strict=True):

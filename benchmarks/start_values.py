@@ -17,7 +17,7 @@ from unittest.mock import patch
 
 import numpy as np
 import sympy as sp
-from marks import renewed
+from support.marks import renewed
 from time_to_error import CHECKPOINTS, FLAGS, Run, Swing, arm, fewest
 
 from tmm_gen.derive.integrators.spectrum import Spectrum

@@ -8,6 +8,8 @@ integrator's period error and numerical damping, which its own analysis predicts
 
 from __future__ import annotations
 
+import argparse
+
 import numpy as np
 from support.identify import identify_poles
 
@@ -53,6 +55,7 @@ of = "angle"
 
 
 def main() -> None:
+    argparse.ArgumentParser(description=__doc__).parse_args()
     rows = []
     with progress("letting go", total=len(INTEGRATOR_NAMES)) as advance:
         for name in INTEGRATOR_NAMES:

@@ -25,8 +25,8 @@ from pathlib import Path
 from typing import Protocol
 
 import numpy as np
-from marks import renewed
 from numpy.typing import ArrayLike, NDArray
+from support.marks import renewed
 
 from tmm_gen.files import write_whole
 from tmm_gen.native import NativeKernel, compile_kernel

@@ -163,7 +163,7 @@ def test_the_page_has_room_for_what_is_measured(solvers: Any) -> None:
     assert "full RTI 0.61" in text
     assert "with 5 links full RTI 1e-10 more" in text
     committed = (ROOT / "docs" / "mpc-speed.md").read_text()
-    renewed, script = importlib.import_module("marks").renewed, "mpc_speed.py"
+    renewed, script = importlib.import_module("support.marks").renewed, "mpc_speed.py"
     written = renewed(committed, text, script)
     assert written == renewed(renewed(committed, "other", script), text, script)
     assert text in written
