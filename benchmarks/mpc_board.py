@@ -23,7 +23,7 @@ from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.kalman import present_sensors
+from tmm_gen.control.estimators.kalman import present_sensors
 from tmm_gen.files import write_whole
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.scene import load_scene

@@ -28,15 +28,15 @@ from tmm_gen.cli.console import progress
 from tmm_gen.closed_loop.compare import made
 from tmm_gen.closed_loop.loop import Loop, run_loop
 from tmm_gen.closed_loop.space_plant import SpacePlant
+from tmm_gen.control.arm.motors import motors_of
+from tmm_gen.control.arm.space_frame import SpaceFrame
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Command, Controller, Flags, Status
 from tmm_gen.control.condition import CONDITIONS, Condition
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.motors import motors_of
-from tmm_gen.control.problem import control_problem
-from tmm_gen.control.space_frame import SpaceFrame
-from tmm_gen.control.target import require_within, rest_with
-from tmm_gen.control.walls import Wall
+from tmm_gen.control.goals.target import require_within, rest_with
+from tmm_gen.control.quadratic.walls import Wall
+from tmm_gen.control.task.problem import control_problem
 from tmm_gen.errors import UserError
 from tmm_gen.files import write_whole
 from tmm_gen.onboard.emit import EMITTED

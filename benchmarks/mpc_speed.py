@@ -42,7 +42,7 @@ from support.marks import renewed
 from tmm_gen.cli.console import Column, plain, progress, table
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
-from tmm_gen.control.extended_kalman import NonlinearFilter
+from tmm_gen.control.estimators.extended_kalman import NonlinearFilter
 from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_tree_whole, write_whole
 from tmm_gen.style import PALETTE, figure, picture, style

@@ -30,16 +30,16 @@ from tmm_gen.closed_loop.compare import made
 from tmm_gen.closed_loop.loop import run_loop
 from tmm_gen.closed_loop.search import search_nearby, search_widely
 from tmm_gen.closed_loop.tracking import end_places
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
+from tmm_gen.control.arm.plane_frame import PlaneFrame
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.pd import PdController
-from tmm_gen.control.plane_frame import PlaneFrame
-from tmm_gen.control.target import rest_with
-from tmm_gen.control.way import Way, shaped_way
-from tmm_gen.control.window import Window
+from tmm_gen.control.estimators.kalman import present_sensors
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.goals.way import Way, shaped_way
+from tmm_gen.control.goals.window import Window
+from tmm_gen.control.laws.pd import PdController
 from tmm_gen.files import write_whole
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.native import EmittedController

@@ -39,6 +39,20 @@ LAYERS = (
 )
 """From the ground up; what stands in one layer does not import from each other."""
 
+WITHIN = {
+    "control": (
+        {"arm", "command", "condition"},
+        {"task"},
+        {"sensors", "goals"},
+        {"prediction"},
+        {"estimators", "quadratic", "plant"},
+        {"bench"},
+        {"laws", "predicted_swing", "acados", "acados_code", "do_mpc"},
+        {"controllers"},
+    )
+}
+"""The same within a folder; what stands in one layer here may import from each other."""
+
 INDEPENDENT = {"reference": {"derive", "program", "emit", "native"}}
 """What must not be seen from where, directly or by way of others: a reference is a truth of its own."""
 
@@ -97,6 +111,20 @@ def test_no_arrow_upward(folder: str) -> None:
         if _folder(name) == folder
         for other in others
         if _folder(other) != folder and RANK[_folder(other)] >= RANK[folder]
+    }
+    assert not upward
+
+
+@pytest.mark.parametrize("folder", WITHIN)
+def test_no_arrow_upward_within(folder: str) -> None:
+    rank = {part: number for number, layer in enumerate(WITHIN[folder]) for part in layer}
+    inside = {name: name.split(".")[2] for name in imports() if name.startswith(f"tmm_gen.{folder}.")}
+    assert set(inside.values()) == set(rank)
+    upward = {
+        f"{name} -> {other}"
+        for name, part in inside.items()
+        for other in imports()[name] & set(inside)
+        if rank[inside[other]] > rank[part]
     }
     assert not upward
 

@@ -16,7 +16,7 @@ RETURNED = (
     "tmm_gen.api.rest.Equilibrium",
     "tmm_gen.api.modes.Modes",
     "tmm_gen.api.frequency.Response",
-    "tmm_gen.control.linear_model.LinearModel",
+    "tmm_gen.control.arm.linear_model.LinearModel",
     "tmm_gen.api.sweep.Sweep",
     "tmm_gen.api.checked.Check",
     "tmm_gen.api.explained.Explained",

@@ -13,14 +13,14 @@ from support.carrying import CarryingPlant, Loads, carrying_plant, payload_of
 
 from faulty_loops.arm_cases import HEAVIEST, ArmCase, Trouble
 from faulty_loops.cases import ADDED, INVALID, STUCK, VALUE
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
+from tmm_gen.control.arm.motors import motors_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.linear_mpc import APPROACH_TIME, LinearMpc
-from tmm_gen.control.motors import motors_of
-from tmm_gen.control.target import rest_with
+from tmm_gen.control.estimators.kalman import present_sensors
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.laws.linear_mpc import APPROACH_TIME, LinearMpc
 from tmm_gen.onboard.emit import LINEAR, emit_controller
 from tmm_gen.onboard.native import FLAGS, EmittedController
 

@@ -13,8 +13,8 @@ import numpy as np
 
 from faulty_loops.cases import Case
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.plant_scene import OUTPUTS
+from tmm_gen.control.estimators.kalman import present_sensors
+from tmm_gen.control.plant.plant_scene import OUTPUTS
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.folder import library_sources

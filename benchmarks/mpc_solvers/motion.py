@@ -23,8 +23,8 @@ import casadi as ca
 import numpy as np
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.links import rest_state
-from tmm_gen.control.terminal import end_rows
+from tmm_gen.control.prediction.links import rest_state
+from tmm_gen.control.quadratic.terminal import end_rows
 from tmm_gen.native.python_module import casadi_module
 
 

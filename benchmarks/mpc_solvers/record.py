@@ -13,8 +13,8 @@ import numpy as np
 
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Command
-from tmm_gen.control.extended_kalman import NonlinearFilter
-from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.estimators.extended_kalman import NonlinearFilter
+from tmm_gen.control.laws.rti import RealTimeIteration
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.native import EmittedController
 

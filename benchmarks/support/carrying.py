@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.closed_loop.space_plant import SpacePlant
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
 from tmm_gen.control.command import Command, Flags, Status
 from tmm_gen.control.condition import Condition
-from tmm_gen.control.course import Course
-from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.goals.course import Course
+from tmm_gen.control.laws.rti import RealTimeIteration
+from tmm_gen.control.task.problem import ControlProblem
 from tmm_gen.onboard.native import EmittedController
 from tmm_gen.scene import Scene
 

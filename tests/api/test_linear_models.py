@@ -11,7 +11,7 @@ from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
 import tmm_gen as tg
-from tmm_gen.control.linear_model import LinearModel
+from tmm_gen.control.arm.linear_model import LinearModel
 from tmm_gen.inputs.signals import Constant
 from tmm_gen.modal.response import frequency_response
 from tmm_gen.modal.situation import resting_arm

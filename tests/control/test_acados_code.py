@@ -16,7 +16,7 @@ from tmm_gen.cli import main
 from tmm_gen.control.acados import acados_fields
 from tmm_gen.control.acados_code import acados_code
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.step_model import StepModel
+from tmm_gen.control.prediction.step_model import StepModel
 from tmm_gen.native.compiler import compile_library
 from tmm_gen.scene import load_scene
 

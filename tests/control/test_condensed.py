@@ -9,11 +9,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.condensed import Condensed, Outputs
-from tmm_gen.control.linear import LinearModel
-from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.response import response
-from tmm_gen.control.terms import Goal
+from tmm_gen.control.prediction.linear import LinearModel
+from tmm_gen.control.quadratic.condensed import Condensed, Outputs
+from tmm_gen.control.quadratic.response import response
+from tmm_gen.control.task.problem import ControlProblem
+from tmm_gen.control.task.terms import Goal
 
 
 def predicted(model: LinearModel, problem: ControlProblem, state: np.ndarray, torques: np.ndarray, last: float,
@@ -49,7 +49,7 @@ def stated_cost(problem: ControlProblem, model: LinearModel, outputs: np.ndarray
 
 
 def test_cost_and_rows_are_those_of_the_problem(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tmm_gen.control.condensed.BEYOND", np.inf)  # no bound gives way
+    monkeypatch.setattr("tmm_gen.control.quadratic.condensed.BEYOND", np.inf)  # no bound gives way
     problem = dataclasses.replace(bench.problem, torque_rate=np.array([40.0]), delay=0.027)
     model = dataclasses.replace(
         bench.modes,

@@ -11,9 +11,9 @@ from numpy.testing import assert_allclose
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.controllers import CONTROLLERS
-from tmm_gen.control.full_nmpc import FullNmpc
-from tmm_gen.control.linear_mpc import LinearMpc
-from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.laws.full_nmpc import FullNmpc
+from tmm_gen.control.laws.linear_mpc import LinearMpc
+from tmm_gen.control.laws.rti import RealTimeIteration
 
 KNOWN = (np.array([0.1]), np.array([0.2]))
 """Disturbance and last torque, N m."""

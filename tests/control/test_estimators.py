@@ -8,8 +8,8 @@ from numpy.testing import assert_allclose
 from scipy.linalg import solve_discrete_are
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
-from tmm_gen.control.kalman import KalmanFilter
+from tmm_gen.control.estimators.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
+from tmm_gen.control.estimators.kalman import KalmanFilter
 
 
 def test_the_gain_solves_the_riccati_equation(bench: Bench) -> None:

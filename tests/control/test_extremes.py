@@ -9,8 +9,8 @@ import pytest
 
 from tmm_gen.cli import main
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.extended_kalman import NonlinearFilter
-from tmm_gen.control.extremes import UnsolvableError
+from tmm_gen.control.estimators.extended_kalman import NonlinearFilter
+from tmm_gen.control.task.extremes import UnsolvableError
 from tmm_gen.scene import parse_scene
 
 FILE = Path(__file__).resolve().parents[2] / "scenes" / "elbow.toml"

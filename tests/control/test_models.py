@@ -12,11 +12,11 @@ from numpy.testing import assert_allclose
 from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
-from tmm_gen.control.delay import Delay, delay_of
-from tmm_gen.control.modes import modes_model
-from tmm_gen.control.prediction import fine_scene
-from tmm_gen.control.step_model import StepModel
-from tmm_gen.control.stepped_frequency import model_frequency
+from tmm_gen.control.prediction.modes import modes_model
+from tmm_gen.control.prediction.prediction import fine_scene
+from tmm_gen.control.prediction.step_model import StepModel
+from tmm_gen.control.prediction.stepped_frequency import model_frequency
+from tmm_gen.control.task.delay import Delay, delay_of
 from tmm_gen.modal.beam import natural_frequencies
 from tmm_gen.modal.discretised import continuous
 from tmm_gen.scene import Scene
@@ -74,7 +74,7 @@ def middles(scene: Scene) -> np.ndarray:
 
 
 def test_a_beam_of_few_links_is_too_slow_without_calibration(small: Bench) -> None:
-    from tmm_gen.control.prediction import prediction_scene
+    from tmm_gen.control.prediction.prediction import prediction_scene
 
     raw = StepModel(prediction_scene(small.assumed, calibrate=False), small.problem)
     transition, _ = raw.jacobian(raw.straight(1.0), np.zeros(1))

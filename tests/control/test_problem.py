@@ -11,9 +11,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.problem import control_problem
-from tmm_gen.control.safe import BRAKE_TIME, safe_torque
-from tmm_gen.control.terms import Goal
+from tmm_gen.control.laws.safe import BRAKE_TIME, safe_torque
+from tmm_gen.control.task.problem import control_problem
+from tmm_gen.control.task.terms import Goal
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene, load_scene
 

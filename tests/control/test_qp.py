@@ -7,8 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.control.command import Status
-from tmm_gen.control.iterations import at_first
-from tmm_gen.control.qp import QuadraticProgram
+from tmm_gen.control.quadratic.iterations import at_first
+from tmm_gen.control.quadratic.qp import QuadraticProgram
 
 LIMIT = 200
 """Iterations, more than any of these takes."""

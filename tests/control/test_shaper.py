@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.shaper import shaper, slowest_vibration
+from tmm_gen.control.laws.shaper import shaper, slowest_vibration
 
 TIME = 1e-3
 

@@ -9,12 +9,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.condensed import Condensed
-from tmm_gen.control.linear import LinearModel
-from tmm_gen.control.lqr import Regulator
-from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.response import response
-from tmm_gen.control.terminal import cost_to_go, end_rows
+from tmm_gen.control.laws.lqr import Regulator
+from tmm_gen.control.prediction.linear import LinearModel
+from tmm_gen.control.quadratic.condensed import Condensed
+from tmm_gen.control.quadratic.response import response
+from tmm_gen.control.quadratic.terminal import cost_to_go, end_rows
+from tmm_gen.control.task.problem import ControlProblem
 from tmm_gen.scene.control import RegulatorWeights
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tmm_gen.control.prediction import prediction_scene
+from tmm_gen.control.prediction.prediction import prediction_scene
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Sine
 from tmm_gen.native import compile_kernel

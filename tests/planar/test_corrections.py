@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tmm_gen.control.prediction import prediction_scene
+from tmm_gen.control.prediction.prediction import prediction_scene
 from tmm_gen.native import NativeKernel
 from tmm_gen.native.python_module import casadi_module, numpy_module
 from tmm_gen.program.build import build_program

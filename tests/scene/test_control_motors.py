@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tmm_gen.control.problem import control_problem
+from tmm_gen.control.task.problem import control_problem
 from tmm_gen.scene import SceneError, parse_scene
 
 ARM = """\

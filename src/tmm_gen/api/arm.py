@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from tmm_gen.api.modes import Modes
     from tmm_gen.api.rest import Equilibria, Equilibrium
     from tmm_gen.api.run import Run
-    from tmm_gen.control.linear_model import LinearModel
+    from tmm_gen.control.arm.linear_model import LinearModel
     from tmm_gen.modal.discretised import LinksNeeded
 
 # SymPy, SciPy, CasADi and Matplotlib are imported inside: an arm is read and changed without them.

@@ -7,7 +7,7 @@ from functools import cached_property
 from types import ModuleType
 from typing import Any
 
-from tmm_gen.control.small_motion import SmallMotion
+from tmm_gen.control.arm.small_motion import SmallMotion
 from tmm_gen.native.python_module import casadi_module
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.stepping import Backend, Stepper

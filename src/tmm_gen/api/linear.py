@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from tmm_gen.api.given import free_angles, named, number
 from tmm_gen.api.rest import Equilibrium
-from tmm_gen.control.linear_model import LinearModel
-from tmm_gen.control.small_motion import SmallMotion
+from tmm_gen.control.arm.linear_model import LinearModel
+from tmm_gen.control.arm.small_motion import SmallMotion
 from tmm_gen.errors import UserError
 from tmm_gen.modal.situation import rest_of
 from tmm_gen.modal.space.situation import resting_in_space

@@ -97,7 +97,7 @@ def _acados(scene: Scene, out: Path | None, force: bool, json_mode: bool) -> Non
     """Write what acados calls, all files or none, and say what they are."""
     from tmm_gen.control.acados_code import acados_code, acados_name
     from tmm_gen.control.bench import Bench
-    from tmm_gen.control.extremes import naming_extremes
+    from tmm_gen.control.task.extremes import naming_extremes
 
     with progress(f"exporting {scene.name}"), naming_extremes(scene):
         step = Bench.of(scene).step
@@ -146,7 +146,7 @@ def _controller(
 ) -> tuple[dict[str, object], list[str]]:
     """Write a unit of a controller; return what JSON and what a person is told."""
     from tmm_gen.control.bench import Bench
-    from tmm_gen.control.extremes import naming_extremes
+    from tmm_gen.control.task.extremes import naming_extremes
     from tmm_gen.onboard.unit import controller_unit
 
     with naming_extremes(scene):

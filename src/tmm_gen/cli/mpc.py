@@ -158,12 +158,12 @@ def mpc(
     if folder is not None and not tunables:
         require_free(folder, force)
     from tmm_gen.control.bench import Bench
-    from tmm_gen.control.course import begins_elsewhere
-    from tmm_gen.control.extremes import naming_extremes
-    from tmm_gen.control.gears import conditions_of
-    from tmm_gen.control.pd_gains import unstable_pd
+    from tmm_gen.control.goals.course import begins_elsewhere
+    from tmm_gen.control.laws.pd_gains import unstable_pd
+    from tmm_gen.control.plant.gears import conditions_of
     from tmm_gen.control.predicted_swing import swings_too_fast
-    from tmm_gen.control.walls import far_behind
+    from tmm_gen.control.quadratic.walls import far_behind
+    from tmm_gen.control.task.extremes import naming_extremes
 
     with naming_extremes(loaded):
         bench = Bench.of(loaded)

@@ -15,9 +15,9 @@ from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.controllers import ControllerKind
-from tmm_gen.control.gears import giving_way
-from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.sample_count import require_countable
+from tmm_gen.control.estimators.kalman import present_sensors
+from tmm_gen.control.plant.gears import giving_way
+from tmm_gen.control.task.sample_count import require_countable
 from tmm_gen.onboard.emit import EMITTED, emit_controller
 from tmm_gen.onboard.native import EmittedController
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.command import Controller, Status
-from tmm_gen.control.course import Course
+from tmm_gen.control.goals.course import Course
 
 Array = NDArray[np.float64]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from tmm_gen.closed_loop.compare import Trial
-from tmm_gen.control.motor_rows import HUB
-from tmm_gen.control.motors import motors_of
-from tmm_gen.control.plant_scene import plant_scene
+from tmm_gen.control.arm.motor_rows import HUB
+from tmm_gen.control.arm.motors import motors_of
+from tmm_gen.control.plant.plant_scene import plant_scene
 from tmm_gen.scene import Scene
 from tmm_gen.simulate.simulation import Simulation
 from tmm_gen.simulate.trace import Trace

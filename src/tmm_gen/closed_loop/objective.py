@@ -11,14 +11,14 @@ import numpy as np
 from tmm_gen.closed_loop.figures import BAND, loop_figures
 from tmm_gen.closed_loop.loop import Loop, run_loop
 from tmm_gen.closed_loop.space_plant import plant_of
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.extremes import UnsolvableError
-from tmm_gen.control.inverse_dynamics import quintic_way
-from tmm_gen.control.target import rest_with
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.laws.inverse_dynamics import quintic_way
+from tmm_gen.control.task.extremes import UnsolvableError
 
 NOISES = (101, 102, 103, 104)
 """Seeds of the sensors' noise while tuning: none of those by which a tuning is judged afterwards."""

@@ -10,7 +10,7 @@ import numpy as np
 from tmm_gen.closed_loop.compare import Trial
 from tmm_gen.closed_loop.figures import BAND
 from tmm_gen.closed_loop.loop import Loop
-from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.task.problem import ControlProblem
 from tmm_gen.style import FAINT, PALETTE, figure, picture, style
 
 if TYPE_CHECKING:

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
+from tmm_gen.control.arm.motors import motors_of
+from tmm_gen.control.arm.payload_body import beside_payload
 from tmm_gen.control.condition import Condition
-from tmm_gen.control.motors import motors_of
-from tmm_gen.control.payload_body import beside_payload
-from tmm_gen.control.plant_scene import plant_scene, steps_of_a_sample
-from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.sensing import Sensing, sites_of
-from tmm_gen.control.target import rest_with
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.plant.plant_scene import plant_scene, steps_of_a_sample
+from tmm_gen.control.sensors.sensing import Sensing, sites_of
+from tmm_gen.control.task.problem import ControlProblem
 from tmm_gen.native import NativeKernel, compile_kernel
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene

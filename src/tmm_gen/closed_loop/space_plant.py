@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.closed_loop.plant import Plant
+from tmm_gen.control.arm.space_motors import space_motors
 from tmm_gen.control.condition import Condition
-from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.space_motors import space_motors
-from tmm_gen.control.target import rest_with
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.task.problem import ControlProblem
 from tmm_gen.derive.integrators.registry import integrator
 from tmm_gen.program.space.layout import layout_of
 from tmm_gen.scene import Scene
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 class SpacePlant(Plant):
     """An arm in space in motion, sampled; see :class:`~tmm_gen.closed_loop.plant.Plant`.
 
-    Tips are what controllers take for them, of the arm as it is (:mod:`tmm_gen.control.space_motors`).
+    Tips are what controllers take for them, of the arm as it is (:mod:`tmm_gen.control.arm.space_motors`).
 
     Attributes
     ----------

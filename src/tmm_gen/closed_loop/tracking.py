@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from tmm_gen.closed_loop.loop import Loop
 from tmm_gen.closed_loop.plant import Plant
+from tmm_gen.control.arm.part_frame import end_of, part_frame
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.part_frame import end_of, part_frame
-from tmm_gen.control.plant_scene import PLANT_LINKS
-from tmm_gen.control.prediction import fine_scene
-from tmm_gen.control.target import rest_with
-from tmm_gen.control.walls import Wall
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.plant.plant_scene import PLANT_LINKS
+from tmm_gen.control.prediction.prediction import fine_scene
+from tmm_gen.control.quadratic.walls import Wall
 from tmm_gen.scene.trajectory import Keep
 
 Array = NDArray[np.float64]

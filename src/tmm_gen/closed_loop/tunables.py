@@ -12,10 +12,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from tmm_gen.closed_loop.knobs import Knob, Tunable
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.kalman import present_sensors
+from tmm_gen.control.estimators.kalman import present_sensors
 
 Ranges = Sequence[tuple[str, float, float]]
 

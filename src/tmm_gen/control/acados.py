@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from tmm_gen.control.acados_code import acados_name
-from tmm_gen.control.step_model import StepModel
+from tmm_gen.control.prediction.step_model import StepModel
 
 
 def acados_fields(model: StepModel, continuous: bool = False) -> dict[str, Any]:

@@ -16,8 +16,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from tmm_gen.control.curvature import HeldSample
-from tmm_gen.control.step_model import StepModel
+from tmm_gen.control.prediction.curvature import HeldSample
+from tmm_gen.control.prediction.step_model import StepModel
 from tmm_gen.emit.casadi.model import symbol
 from tmm_gen.scratch import scratch_folder
 from tmm_gen.version import __version__

@@ -8,16 +8,16 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
+from tmm_gen.control.arm.motors import motors_of
 from tmm_gen.control.condition import Condition
-from tmm_gen.control.course import Course, course_of
-from tmm_gen.control.linear import LinearModel
-from tmm_gen.control.links import links_model
-from tmm_gen.control.modes import modes_model
-from tmm_gen.control.motors import motors_of
-from tmm_gen.control.prediction import prediction_scene
-from tmm_gen.control.problem import ControlProblem, control_problem
-from tmm_gen.control.step_model import StepModel
+from tmm_gen.control.goals.course import Course, course_of
+from tmm_gen.control.prediction.linear import LinearModel
+from tmm_gen.control.prediction.links import links_model
+from tmm_gen.control.prediction.modes import modes_model
+from tmm_gen.control.prediction.prediction import prediction_scene
+from tmm_gen.control.prediction.step_model import StepModel
+from tmm_gen.control.task.problem import ControlProblem, control_problem
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]

@@ -8,20 +8,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
-from tmm_gen.control.inverse_dynamics import quintic_way
-from tmm_gen.control.linear_mpc import LinearMpc
-from tmm_gen.control.lqr import Regulator
-from tmm_gen.control.pd import PdController
-from tmm_gen.control.pd_gains import usual_gains
-from tmm_gen.control.qp import require_daqp
-from tmm_gen.control.rti import RealTimeIteration
-from tmm_gen.control.shaper import Kind, shaper, slowest_vibration
-from tmm_gen.control.walls import keeps_no_walls
-from tmm_gen.control.way import Way, shaped_way, stepped_way
-from tmm_gen.control.window import Window
+from tmm_gen.control.goals.way import Way, shaped_way, stepped_way
+from tmm_gen.control.goals.window import Window
+from tmm_gen.control.laws.inverse_dynamics import quintic_way
+from tmm_gen.control.laws.linear_mpc import LinearMpc
+from tmm_gen.control.laws.lqr import Regulator
+from tmm_gen.control.laws.pd import PdController
+from tmm_gen.control.laws.pd_gains import usual_gains
+from tmm_gen.control.laws.rti import RealTimeIteration
+from tmm_gen.control.laws.shaper import Kind, shaper, slowest_vibration
+from tmm_gen.control.quadratic.qp import require_daqp
+from tmm_gen.control.quadratic.walls import keeps_no_walls
 from tmm_gen.scene.control import Baselines
 from tmm_gen.scene.each import Each, by_names
 
@@ -80,7 +80,7 @@ class ControllerKind:
 
 
 def _gains(bench: Bench, gains: Each[tuple[float, float]] | None) -> tuple[Array, Array]:
-    """Return gains, (m,) each; see :mod:`tmm_gen.control.pd_gains` for those that are not told."""
+    """Return gains, (m,) each; see :mod:`tmm_gen.control.laws.pd_gains` for those that are not told."""
     if gains is not None:
         proportional, derivative = np.array(by_names(gains, bench.problem.motors.names)).T
         return proportional, derivative
@@ -127,7 +127,7 @@ def _pd(bench: Bench, proportional: Array, derivative: Array, way: Way) -> PdCon
 
 
 def _nmpc(bench: Bench) -> Controller:
-    from tmm_gen.control.full_nmpc import FullNmpc
+    from tmm_gen.control.laws.full_nmpc import FullNmpc
 
     return FullNmpc(bench.step, bench.links, bench.inertia)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from tmm_gen.control.step_model import StepModel
+from tmm_gen.control.prediction.step_model import StepModel
 from tmm_gen.errors import UserError
 from tmm_gen.extras import install
 

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.linear import LinearModel
-from tmm_gen.control.where import where
+from tmm_gen.control.prediction.linear import LinearModel
+from tmm_gen.control.task.where import where
 
 _BY_STEPS = ("mpc-links", "rti-zero", "rti", "nmpc")
 """Controllers that predict by the generated step."""

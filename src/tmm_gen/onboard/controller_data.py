@@ -7,7 +7,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.credible import Credible
+from tmm_gen.control.estimators.credible import Credible
 from tmm_gen.onboard.program_data import ProgramData
 from tmm_gen.onboard.weight import Weight
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.condensed import Condensed
-from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.linear_mpc import LinearMpc
-from tmm_gen.control.rti import RealTimeIteration
-from tmm_gen.control.walls import keeps_no_walls
-from tmm_gen.control.where import where
+from tmm_gen.control.estimators.kalman import present_sensors
+from tmm_gen.control.laws.linear_mpc import LinearMpc
+from tmm_gen.control.laws.rti import RealTimeIteration
+from tmm_gen.control.quadratic.condensed import Condensed
+from tmm_gen.control.quadratic.walls import keeps_no_walls
+from tmm_gen.control.task.where import where
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.example_arm import example_arm
 from tmm_gen.onboard.linear import emit_linear_mpc

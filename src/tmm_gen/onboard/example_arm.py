@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.linear import LinearModel
+from tmm_gen.control.estimators.kalman import present_sensors
+from tmm_gen.control.prediction.linear import LinearModel
 
 Array = NDArray[np.float64]
 

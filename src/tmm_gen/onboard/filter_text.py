@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tmm_gen.control.qp import INFINITE
+from tmm_gen.control.quadratic.qp import INFINITE
 from tmm_gen.onboard.wall_text import WallText
 
 

@@ -6,7 +6,7 @@ import textwrap
 
 from tmm_gen.c_language.real import Real
 from tmm_gen.c_language.wrap import WIDTH
-from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.task.problem import ControlProblem
 from tmm_gen.version import __version__
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tmm_gen.c_language.real import REALS
-from tmm_gen.control.linear_mpc import LinearMpc
+from tmm_gen.control.laws.linear_mpc import LinearMpc
 from tmm_gen.emit.templates import render
 from tmm_gen.onboard.example_arm import ExampleArm
 from tmm_gen.onboard.folder import complete

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arm import Holding
-from tmm_gen.control.credible import Credible
-from tmm_gen.control.holding import LevelHolding
-from tmm_gen.control.kalman import KalmanFilter
-from tmm_gen.control.linear_mpc import LinearMpc
-from tmm_gen.control.safe import BRAKE_TIME
-from tmm_gen.control.space_arm import RigidHolding
-from tmm_gen.control.terms import Kind
+from tmm_gen.control.arm.arm import Holding
+from tmm_gen.control.arm.holding import LevelHolding
+from tmm_gen.control.arm.space_arm import RigidHolding
+from tmm_gen.control.estimators.credible import Credible
+from tmm_gen.control.estimators.kalman import KalmanFilter
+from tmm_gen.control.laws.linear_mpc import LinearMpc
+from tmm_gen.control.laws.safe import BRAKE_TIME
+from tmm_gen.control.task.terms import Kind
 from tmm_gen.onboard.linear_maps import affine_maps, first_active, folded
 from tmm_gen.onboard.linear_pull import pull_of
 from tmm_gen.onboard.program_data import ProgramData, program_data
@@ -83,7 +83,7 @@ class LinearMpcData:
     brake : array, (m,)
         Of the safe law, N m s/rad.
     holds : array, (m, m)
-        What holds up an arm in a plane, N m; see :func:`tmm_gen.control.holding.holding`.
+        What holds up an arm in a plane, N m; see :func:`tmm_gen.control.arm.holding.holding`.
     weight : Weight or None
         What holds up an arm in space.
     holds_more : array, (m, m)
@@ -95,9 +95,9 @@ class LinearMpcData:
     payloads : (float, float)
         The least and the largest one that the model is good for, kg.
     sag, felt : array, (s, m) and (p, m)
-        Of a rest elsewhere; see :class:`~tmm_gen.control.linear_target.Places`.
+        Of a rest elsewhere; see :class:`~tmm_gen.control.prediction.linear_target.Places`.
     reach, range : array, (m,)
-        How far the model is good, rad; see :class:`~tmm_gen.control.linear_mpc.LinearMpc`.
+        How far the model is good, rad; see :class:`~tmm_gen.control.laws.linear_mpc.LinearMpc`.
     tips : tuple of (int, array, array)
         Which kinds of rows bound tips; what a tip at the target grows with: hubs' angles, (m,), and their sines, (m,).
     answers : array, (outputs, m, N)

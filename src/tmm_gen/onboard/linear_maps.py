@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.control.command import Status
-from tmm_gen.control.linear_mpc import LinearMpc
+from tmm_gen.control.laws.linear_mpc import LinearMpc
 from tmm_gen.onboard.program_data import ProgramData
 
 Array = NDArray[np.float64]

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.linear_mpc import LinearMpc
+from tmm_gen.control.laws.linear_mpc import LinearMpc
 
 Array = NDArray[np.float64]
 

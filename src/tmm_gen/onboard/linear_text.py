@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.linear_mpc import APPROACH_TIME
+from tmm_gen.control.laws.linear_mpc import APPROACH_TIME
 from tmm_gen.onboard.held_text import HeldText
 from tmm_gen.onboard.linear_data import LinearMpcData
 from tmm_gen.onboard.program_data import INFINITE

@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.arm.motor_rows import Motors
+from tmm_gen.control.arm.motors import motors_of
+from tmm_gen.control.arm.space_motors import space_motors
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import Condition
-from tmm_gen.control.motor_rows import Motors
-from tmm_gen.control.motors import motors_of
-from tmm_gen.control.plant_scene import plant_scene
-from tmm_gen.control.problem import ControlProblem
-from tmm_gen.control.sensing import Sensing, sites_of
-from tmm_gen.control.space_motors import space_motors
-from tmm_gen.control.target import rest_with
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.plant.plant_scene import plant_scene
+from tmm_gen.control.sensors.sensing import Sensing, sites_of
+from tmm_gen.control.task.problem import ControlProblem
 from tmm_gen.scene import Scene
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from tmm_gen.c_language.names import bare_names
 from tmm_gen.c_language.real import DOUBLE, Real
-from tmm_gen.control.plant_scene import steps_of_a_sample
+from tmm_gen.control.plant.plant_scene import steps_of_a_sample
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.templates import render
 from tmm_gen.onboard.joint_tables import JointTables

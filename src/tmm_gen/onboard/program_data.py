@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.condensed import Condensed
-from tmm_gen.control.iterations import iteration_limit
-from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.quadratic.condensed import Condensed
+from tmm_gen.control.quadratic.iterations import iteration_limit
+from tmm_gen.control.task.problem import ControlProblem
 
 Array = NDArray[np.float64]
 
@@ -43,7 +43,7 @@ class ProgramData:
     softness : array, (m N + r,)
         ``1 / W`` of soft rows, zero of hard ones.
     stopping : array, (m,)
-        See :attr:`~tmm_gen.control.condensed.Condensed.stopping`.
+        See :attr:`~tmm_gen.control.quadratic.condensed.Condensed.stopping`.
     capacity, iteration_limit : int
         How many bounds may be active at once; how many iterations a solution may take.
     """

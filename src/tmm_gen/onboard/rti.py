@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from tmm_gen.c_language.names import bare_names
 from tmm_gen.c_language.real import REALS
-from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.laws.rti import RealTimeIteration
 from tmm_gen.emit.c import emit_kernel
 from tmm_gen.emit.c.kernel import Kernel
 from tmm_gen.emit.templates import render

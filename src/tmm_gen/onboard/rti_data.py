@@ -7,19 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arms import arm_of
-from tmm_gen.control.credible import Credible
-from tmm_gen.control.far_gain import FarGain, far_gain
-from tmm_gen.control.holding import holding
-from tmm_gen.control.kalman import KalmanFilter
-from tmm_gen.control.motor_rows import Motors
-from tmm_gen.control.payload import laden, payload_of
-from tmm_gen.control.payload_body import beside_payload
-from tmm_gen.control.response import split_outputs
-from tmm_gen.control.rti import RealTimeIteration
-from tmm_gen.control.safe import BRAKE_TIME
-from tmm_gen.control.terms import Kind
-from tmm_gen.control.walls import Wall
+from tmm_gen.control.arm.arms import arm_of
+from tmm_gen.control.arm.holding import holding
+from tmm_gen.control.arm.motor_rows import Motors
+from tmm_gen.control.arm.payload import laden, payload_of
+from tmm_gen.control.arm.payload_body import beside_payload
+from tmm_gen.control.estimators.credible import Credible
+from tmm_gen.control.estimators.far_gain import FarGain, far_gain
+from tmm_gen.control.estimators.kalman import KalmanFilter
+from tmm_gen.control.laws.rti import RealTimeIteration
+from tmm_gen.control.laws.safe import BRAKE_TIME
+from tmm_gen.control.quadratic.response import split_outputs
+from tmm_gen.control.quadratic.walls import Wall
+from tmm_gen.control.task.terms import Kind
 from tmm_gen.onboard.joint_tables import JointTables
 from tmm_gen.onboard.linear_data import gains_by_sensors
 from tmm_gen.onboard.program_data import ProgramData, program_data
@@ -72,7 +72,7 @@ class RtiData:
     sensors : tuple of int
         Which there are of m encoders, m accelerometers and m strain gauges.
     holds : array, (m, m)
-        What holds up an arm in a plane, N m; see :func:`tmm_gen.control.holding.holding`.
+        What holds up an arm in a plane, N m; see :func:`tmm_gen.control.arm.holding.holding`.
     holds_more : array, (m, m)
         By how much these grow for each kilogram at the tip, N m/kg; zero where there is none.
     payload : float or None

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from tmm_gen.c_language.names import macros
 from tmm_gen.c_language.wrap import statement
-from tmm_gen.control.motor_rows import Motor
-from tmm_gen.control.rti import AWAY, FAR, FAR_AT_WALLS, MOVING, TURNED
-from tmm_gen.control.terms import Kind
+from tmm_gen.control.arm.motor_rows import Motor
+from tmm_gen.control.laws.rti import AWAY, FAR, FAR_AT_WALLS, MOVING, TURNED
+from tmm_gen.control.task.terms import Kind
 from tmm_gen.onboard.filter_text import FilterText
 
 AIM_TURNS = 12
@@ -65,7 +65,7 @@ class RtiText(FilterText):
 
     @property
     def renewal(self) -> tuple[float, float, float, float]:
-        """When they are found anew, rad: see the constants of :mod:`tmm_gen.control.rti`."""
+        """When they are found anew, rad: see the constants of :mod:`tmm_gen.control.laws.rti`."""
         return MOVING, AWAY, FAR_AT_WALLS if self.walls else FAR, TURNED
 
     @property

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.accelerometers import PlanarAccelerometer, SpaceAccelerometer
-from tmm_gen.control.gauges import Gauge
-from tmm_gen.control.sensing import Sensing
+from tmm_gen.control.sensors.accelerometers import PlanarAccelerometer, SpaceAccelerometer
+from tmm_gen.control.sensors.gauges import Gauge
+from tmm_gen.control.sensors.sensing import Sensing
 
 Array = NDArray[np.float64]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tmm_gen.control.motor_rows import Motors
+from tmm_gen.control.arm.motor_rows import Motors
 
 _BEHIND = (
     ("tip accelerometer", "acceleration across the last link at the tip"),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.payload import changed_parameters, laden
+from tmm_gen.control.arm.payload import changed_parameters, laden
 from tmm_gen.derive.space.declaration import AXES, PAIRS
 from tmm_gen.program.space.kernel_parameters import parameter_values
 from tmm_gen.scene import Scene

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tmm_gen.c_language.real import Real
-from tmm_gen.control.condensed import BEYOND
-from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE, PROOF
-from tmm_gen.control.problem import ControlProblem
+from tmm_gen.control.estimators.credible import FARTHEST, JUMP, PATIENCE, PROOF
+from tmm_gen.control.quadratic.condensed import BEYOND
+from tmm_gen.control.task.problem import ControlProblem
 from tmm_gen.onboard.controller_data import ControllerData
 from tmm_gen.onboard.head import head
 from tmm_gen.onboard.program_data import INFINITE

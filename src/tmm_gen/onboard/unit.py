@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 
 from tmm_gen.c_language.real import REALS
+from tmm_gen.control.arm.payload import payload_of
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.payload import payload_of
+from tmm_gen.control.estimators.kalman import present_sensors
 from tmm_gen.emit.templates import render
 from tmm_gen.errors import UserError
 from tmm_gen.export.fmu import FmiVersion

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tmm_gen.control.space_frame import SpaceFrame
-from tmm_gen.control.terms import Kind
-from tmm_gen.control.walls import Wall
+from tmm_gen.control.arm.space_frame import SpaceFrame
+from tmm_gen.control.quadratic.walls import Wall
+from tmm_gen.control.task.terms import Kind
 from tmm_gen.onboard.held_text import HeldText
 from tmm_gen.onboard.joint_tables import JointTables
 from tmm_gen.onboard.rti_data import RtiData

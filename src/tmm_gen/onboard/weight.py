@@ -13,7 +13,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from tmm_gen.control.arm import ControlledArm
+from tmm_gen.control.arm.arm import ControlledArm
 
 Array = NDArray[np.float64]
 

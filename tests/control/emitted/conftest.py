@@ -13,9 +13,9 @@ from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import CONDITIONS
-from tmm_gen.control.extended_kalman import NonlinearFilter
-from tmm_gen.control.linear_mpc import LinearMpc
-from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.estimators.extended_kalman import NonlinearFilter
+from tmm_gen.control.laws.linear_mpc import LinearMpc
+from tmm_gen.control.laws.rti import RealTimeIteration
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.native import EmittedController
 

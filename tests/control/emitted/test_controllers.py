@@ -13,10 +13,10 @@ from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS
-from tmm_gen.control.credible import FARTHEST, JUMP, PATIENCE
-from tmm_gen.control.iterations import iteration_limit
-from tmm_gen.control.linear_mpc import LinearMpc
-from tmm_gen.control.safe import BRAKE_TIME
+from tmm_gen.control.estimators.credible import FARTHEST, JUMP, PATIENCE
+from tmm_gen.control.laws.linear_mpc import LinearMpc
+from tmm_gen.control.laws.safe import BRAKE_TIME
+from tmm_gen.control.quadratic.iterations import iteration_limit
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.emit import EMITTED, emit_controller
 from tmm_gen.onboard.folder import EXAMPLE

@@ -16,12 +16,12 @@ import numpy as np
 import pytest
 
 from tmm_gen.closed_loop.space_plant import plant_of
+from tmm_gen.control.arm.motors import motors_of
+from tmm_gen.control.arm.space_motors import space_motors
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import CONDITIONS
-from tmm_gen.control.motors import motors_of
-from tmm_gen.control.space_motors import space_motors
-from tmm_gen.control.target import rest_with
+from tmm_gen.control.goals.target import rest_with
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.scene import Scene, load_scene
 

@@ -9,12 +9,12 @@ from numpy.testing import assert_allclose
 
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
-from tmm_gen.control.credible import JUMP, PATIENCE
-from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
-from tmm_gen.control.full_nmpc import FullNmpc
-from tmm_gen.control.kalman import KalmanFilter
-from tmm_gen.control.linear_mpc import LinearMpc
-from tmm_gen.control.rti import FAR, TURNED, RealTimeIteration
+from tmm_gen.control.estimators.credible import JUMP, PATIENCE
+from tmm_gen.control.estimators.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
+from tmm_gen.control.estimators.kalman import KalmanFilter
+from tmm_gen.control.laws.full_nmpc import FullNmpc
+from tmm_gen.control.laws.linear_mpc import LinearMpc
+from tmm_gen.control.laws.rti import FAR, TURNED, RealTimeIteration
 from tmm_gen.scene import Scene
 
 NONE = np.zeros(2)

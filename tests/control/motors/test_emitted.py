@@ -12,16 +12,16 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.closed_loop.plant import Plant
+from tmm_gen.control.arm.plane_frame import PlaneFrame
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS, Condition
-from tmm_gen.control.course import Course
-from tmm_gen.control.extended_kalman import NonlinearFilter
-from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.plane_frame import PlaneFrame
-from tmm_gen.control.rti import RealTimeIteration
-from tmm_gen.control.target import rest_with
-from tmm_gen.control.walls import Wall
+from tmm_gen.control.estimators.extended_kalman import NonlinearFilter
+from tmm_gen.control.estimators.kalman import present_sensors
+from tmm_gen.control.goals.course import Course
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.laws.rti import RealTimeIteration
+from tmm_gen.control.quadratic.walls import Wall
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.native import EmittedController
 

@@ -14,8 +14,8 @@ from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.linear_mpc import LinearMpc
+from tmm_gen.control.estimators.kalman import present_sensors
+from tmm_gen.control.laws.linear_mpc import LinearMpc
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.emit import emit_controller, usual_controller
 from tmm_gen.onboard.native import EmittedController

@@ -9,14 +9,14 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import expm, solve_discrete_are
 
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.inverse_dynamics import SPARED, quintic_way
-from tmm_gen.control.lift import Lift
-from tmm_gen.control.lqr import Regulator
-from tmm_gen.control.modes import modes_model
-from tmm_gen.control.target import find_target
-from tmm_gen.control.terms import Goal
+from tmm_gen.control.goals.target import find_target
+from tmm_gen.control.laws.inverse_dynamics import SPARED, quintic_way
+from tmm_gen.control.laws.lqr import Regulator
+from tmm_gen.control.prediction.lift import Lift
+from tmm_gen.control.prediction.modes import modes_model
+from tmm_gen.control.task.terms import Goal
 from tmm_gen.errors import UserError
 from tmm_gen.inputs.signals import Constant
 from tmm_gen.reference.planar_arm import Arm
@@ -98,7 +98,9 @@ def test_gains_are_those_of_the_reference_model(two: Bench, monkeypatch: pytest.
     value = solve_discrete_are(a, b, cost, price)
     expected = np.linalg.solve(price + b.T @ value @ b, b.T @ value @ a)
 
-    monkeypatch.setattr("tmm_gen.control.modes.fine_scene", lambda scene: scene)  # the same few links
+    monkeypatch.setattr(
+        "tmm_gen.control.prediction.modes.fine_scene", lambda scene: scene
+    )  # the same few links
     model = modes_model(two.scene, two.problem)
     found = Regulator(model, two.problem, weights, two.inertia)
     assert_allclose(found.gain @ model.turned, expected[:, :size] @ motors.turned, rtol=1e-5)

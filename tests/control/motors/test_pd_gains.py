@@ -10,11 +10,11 @@ import pytest
 
 from tmm_gen.closed_loop.loop import run_loop
 from tmm_gen.closed_loop.plant import Plant
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import make_pd
-from tmm_gen.control.pd_gains import pd_growth, unstable_pd, usual_gains
+from tmm_gen.control.laws.pd_gains import pd_growth, unstable_pd, usual_gains
 from tmm_gen.scene import Scene
 
 

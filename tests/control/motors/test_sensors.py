@@ -9,17 +9,17 @@ from numpy.testing import assert_allclose
 from tmm_gen.closed_loop.figures import Figures, loop_figures
 from tmm_gen.closed_loop.loop import run_loop
 from tmm_gen.closed_loop.plant import Plant
+from tmm_gen.control.arm.plane_frame import PlaneFrame
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
-from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.links import target_state
-from tmm_gen.control.plane_frame import PlaneFrame
-from tmm_gen.control.rti import RealTimeIteration
-from tmm_gen.control.sensing import Sensing, sites_of
-from tmm_gen.control.target import find_target, rest_with
+from tmm_gen.control.estimators.extended_kalman import ExtendedKalmanFilter, NonlinearFilter
+from tmm_gen.control.estimators.kalman import present_sensors
+from tmm_gen.control.goals.target import find_target, rest_with
+from tmm_gen.control.laws.rti import RealTimeIteration
+from tmm_gen.control.prediction.links import target_state
+from tmm_gen.control.sensors.sensing import Sensing, sites_of
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.native import EmittedController

@@ -9,20 +9,20 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.closed_loop.compare import Trial, compare
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
+from tmm_gen.control.arm.plane_frame import PlaneFrame
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.course import begins_elsewhere, course_of
-from tmm_gen.control.following import Following
-from tmm_gen.control.full_nmpc import FullNmpc
-from tmm_gen.control.plane_frame import PlaneFrame
-from tmm_gen.control.pose import Pose, pose_in
-from tmm_gen.control.rti import RealTimeIteration
-from tmm_gen.control.target import rest_with
-from tmm_gen.control.terms import Wanted
-from tmm_gen.control.window import Window
+from tmm_gen.control.goals.course import begins_elsewhere, course_of
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.goals.window import Window
+from tmm_gen.control.laws.following import Following
+from tmm_gen.control.laws.full_nmpc import FullNmpc
+from tmm_gen.control.laws.pose import Pose, pose_in
+from tmm_gen.control.laws.rti import RealTimeIteration
+from tmm_gen.control.task.terms import Wanted
 from tmm_gen.errors import UserError
 from tmm_gen.onboard.emit import usual_controller
 from tmm_gen.scene import Scene, load_scene, parse_scene

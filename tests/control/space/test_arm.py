@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
+from tmm_gen.control.arm.motors import motors_of
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.lift import Lift
-from tmm_gen.control.motors import motors_of
-from tmm_gen.control.problem import control_problem
-from tmm_gen.control.target import rest_with
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.prediction.lift import Lift
+from tmm_gen.control.task.problem import control_problem
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.still import Still
 from tmm_gen.scene import Scene, load_scene, parse_scene

@@ -13,8 +13,8 @@ from tmm_gen.closed_loop.space_plant import plant_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.full_nmpc import FullNmpc
-from tmm_gen.control.rti import RealTimeIteration
+from tmm_gen.control.laws.full_nmpc import FullNmpc
+from tmm_gen.control.laws.rti import RealTimeIteration
 from tmm_gen.scene import SceneError, parse_scene
 
 HUB = '[[body]]\nname = "hub"\non = "base"\nmass = 1.0\ninertia = [0.01, 0.01, 0.01]'

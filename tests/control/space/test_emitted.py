@@ -11,19 +11,19 @@ from numpy.testing import assert_allclose
 
 from tmm_gen.closed_loop.loop import run_loop
 from tmm_gen.closed_loop.space_plant import plant_of
-from tmm_gen.control.arms import arm_of
+from tmm_gen.control.arm.arms import arm_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.command import Status
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.course import Course
-from tmm_gen.control.credible import PATIENCE
-from tmm_gen.control.extended_kalman import NonlinearFilter
-from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.linear_mpc import LinearMpc
-from tmm_gen.control.rti import FAR, RealTimeIteration
-from tmm_gen.control.target import rest_with
-from tmm_gen.control.walls import Wall
+from tmm_gen.control.estimators.credible import PATIENCE
+from tmm_gen.control.estimators.extended_kalman import NonlinearFilter
+from tmm_gen.control.estimators.kalman import present_sensors
+from tmm_gen.control.goals.course import Course
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.laws.linear_mpc import LinearMpc
+from tmm_gen.control.laws.rti import FAR, RealTimeIteration
+from tmm_gen.control.quadratic.walls import Wall
 from tmm_gen.onboard.emit import emit_controller, usual_controller
 from tmm_gen.onboard.native import EmittedController
 from tmm_gen.onboard.weight import Weight, weight_of

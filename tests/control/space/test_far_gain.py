@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.extended_kalman import NonlinearFilter
-from tmm_gen.control.links import target_state
-from tmm_gen.control.target import rest_with
+from tmm_gen.control.estimators.extended_kalman import NonlinearFilter
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.prediction.links import target_state
 
 SMALL = 1e-6
 """By how much each entry of an estimate is off, rad, rad/s, and so on."""

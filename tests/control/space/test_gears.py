@@ -10,11 +10,11 @@ from numpy.testing import assert_allclose
 
 from tmm_gen.closed_loop.compare import compare
 from tmm_gen.closed_loop.space_plant import plant_of
+from tmm_gen.control.arm.motors import motors_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.gears import giving_way, rigid_gears
-from tmm_gen.control.motors import motors_of
+from tmm_gen.control.plant.gears import giving_way, rigid_gears
 from tmm_gen.scene import Scene, load_scene, parse_scene
 
 GEARS = next(case for case in CONDITIONS if case.name == "gears")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tmm_gen.control.problem import control_problem
+from tmm_gen.control.task.problem import control_problem
 from tmm_gen.scene import SceneError, parse_scene
 
 LIFT = 'name = "lift"\non = "yaw"\n'

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.walls import Wall
+from tmm_gen.control.quadratic.walls import Wall
 
 
 @pytest.fixture(scope="module")

@@ -7,14 +7,14 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.closed_loop.space_plant import plant_of
+from tmm_gen.control.arm.motors import motors_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
-from tmm_gen.control.extended_kalman import NonlinearFilter
-from tmm_gen.control.kalman import present_sensors
-from tmm_gen.control.linear_mpc import LinearMpc
-from tmm_gen.control.motors import motors_of
-from tmm_gen.control.rti import RealTimeIteration
-from tmm_gen.control.target import rest_with
+from tmm_gen.control.estimators.extended_kalman import NonlinearFilter
+from tmm_gen.control.estimators.kalman import present_sensors
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.laws.linear_mpc import LinearMpc
+from tmm_gen.control.laws.rti import RealTimeIteration
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.native import EmittedController
 from tmm_gen.scene import Scene

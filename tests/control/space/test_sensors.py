@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from tmm_gen.control.arm.space_frame import SpaceFrame
 from tmm_gen.control.bench import Bench
-from tmm_gen.control.space_frame import SpaceFrame
-from tmm_gen.control.target import rest_with
+from tmm_gen.control.goals.target import rest_with
 from tmm_gen.reference.spatial_places import Tree
 from tmm_gen.scene import Scene, SceneError, parse_scene
 from tmm_gen.scene.spatial.motor_ends import MotorEnds

@@ -9,12 +9,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 from tmm_gen.closed_loop.compare import compare
+from tmm_gen.control.arm.part_frame import end_of
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.course import begins_elsewhere, course_of
-from tmm_gen.control.part_frame import end_of
-from tmm_gen.control.target import rest_with
+from tmm_gen.control.goals.course import begins_elsewhere, course_of
+from tmm_gen.control.goals.target import rest_with
 from tmm_gen.errors import UserError
 from tmm_gen.native import compile_kernel
 from tmm_gen.program.build import build_program

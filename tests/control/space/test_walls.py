@@ -12,12 +12,12 @@ from tmm_gen.closed_loop.compare import compare
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.full_nmpc import FullNmpc
-from tmm_gen.control.plant_scene import plant_scene
-from tmm_gen.control.response import split_outputs
-from tmm_gen.control.rti import RealTimeIteration
-from tmm_gen.control.target import rest_with
-from tmm_gen.control.walls import Wall, far_behind
+from tmm_gen.control.goals.target import rest_with
+from tmm_gen.control.laws.full_nmpc import FullNmpc
+from tmm_gen.control.laws.rti import RealTimeIteration
+from tmm_gen.control.plant.plant_scene import plant_scene
+from tmm_gen.control.quadratic.response import split_outputs
+from tmm_gen.control.quadratic.walls import Wall, far_behind
 from tmm_gen.errors import UserError
 from tmm_gen.modal.space.numbers import ArmNumbers
 from tmm_gen.modal.space.still import Still

@@ -15,7 +15,7 @@ from tmm_gen.cli import main
 from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
-from tmm_gen.control.kalman import present_sensors
+from tmm_gen.control.estimators.kalman import present_sensors
 from tmm_gen.export.fmu import FmiVersion
 from tmm_gen.export.fmu.headers import fmi_headers
 from tmm_gen.native.compiler import FLAGS, compile_library

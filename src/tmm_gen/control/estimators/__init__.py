@@ -1,0 +1,1 @@
+"""What state an arm is in, by what its sensors show."""

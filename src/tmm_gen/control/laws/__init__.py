@@ -1,0 +1,1 @@
+"""What turns an estimate into torques: predictive control, LQR, PD."""

@@ -1,0 +1,1 @@
+"""The finer arm that controllers are tried on."""

@@ -1,0 +1,1 @@
+"""The quadratic program of a sample: condensed, bounded, solved."""

@@ -1,0 +1,1 @@
+"""What is asked of controllers, in a scene's ``[control]``: the optimal control problem, stated once."""
