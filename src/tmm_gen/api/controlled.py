@@ -19,7 +19,7 @@ from tmm_gen.closed_loop.figures import BAND
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import CONTROLLERS, require_solvers
-from tmm_gen.control.plant.gears import conditions_of
+from tmm_gen.control.plant.differing import conditions_of
 from tmm_gen.errors import UserError
 from tmm_gen.files import write_whole
 from tmm_gen.scene import Scene

@@ -160,7 +160,7 @@ def mpc(
     from tmm_gen.control.bench import Bench
     from tmm_gen.control.goals.course import begins_elsewhere
     from tmm_gen.control.laws.pd_gains import unstable_pd
-    from tmm_gen.control.plant.gears import conditions_of
+    from tmm_gen.control.plant.differing import conditions_of
     from tmm_gen.control.predicted_swing import swings_too_fast
     from tmm_gen.control.quadratic.walls import far_behind
     from tmm_gen.control.task.extremes import naming_extremes

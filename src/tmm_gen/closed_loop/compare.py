@@ -16,7 +16,7 @@ from tmm_gen.control.command import Controller
 from tmm_gen.control.condition import Condition
 from tmm_gen.control.controllers import ControllerKind
 from tmm_gen.control.estimators.kalman import present_sensors
-from tmm_gen.control.plant.gears import giving_way
+from tmm_gen.control.plant.differing import require_difference
 from tmm_gen.control.task.sample_count import require_countable
 from tmm_gen.onboard.emit import EMITTED, emit_controller
 from tmm_gen.onboard.native import EmittedController
@@ -114,13 +114,11 @@ def compare(
     Raises
     ------
     UserError
-        If the motor cannot hold the target, there is no gear that could give way under a condition of gears, or
-        samples are too many.
+        If the motor cannot hold the target, a condition would change nothing of the arm, or samples are too many.
     """
     require_countable(bench.scene, duration, bench.problem.sample_time)
     for condition in conditions:
-        if condition.twist:
-            giving_way(bench.scene, condition.twist)  # to be refused before others have taken their time
+        require_difference(bench.scene, condition)
     told = {(0.0, 0.0): bench}
     for condition in conditions:
         known = (condition.gravity, condition.delay)

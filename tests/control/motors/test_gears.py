@@ -15,7 +15,8 @@ from tmm_gen.closed_loop.plant import Plant
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME
-from tmm_gen.control.plant.gears import GEAR_DAMPING_TIME, conditions_of, giving_way, rigid_gears
+from tmm_gen.control.plant.differing import conditions_of
+from tmm_gen.control.plant.gears import GEAR_DAMPING_TIME, giving_way, rigid_gears
 from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 

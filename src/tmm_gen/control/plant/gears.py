@@ -7,8 +7,6 @@ from typing import Any
 import numpy as np
 
 from tmm_gen.control.arm.motors import motors_of
-from tmm_gen.control.condition import CONDITIONS, Condition
-from tmm_gen.errors import UserError
 from tmm_gen.scene import Scene
 from tmm_gen.scene.each import by_names
 
@@ -37,7 +35,7 @@ def rigid_gears(scene: Scene) -> dict[str, float]:
 
 
 def giving_way(scene: Scene, twist: float) -> dict[str, object]:
-    """Return the changes of a scene by which its rigid gears give way.
+    """Return the changes of a scene by which its rigid gears give way; none where it has no such gears.
 
     Parameters
     ----------
@@ -45,20 +43,9 @@ def giving_way(scene: Scene, twist: float) -> dict[str, object]:
         With ``[control]``.
     twist : float
         What a motor's largest torque twists its gear by, rad.
-
-    Raises
-    ------
-    UserError
-        If it has no rigid gear.
     """
     gears, control = rigid_gears(scene), scene.control
     assert control is not None
-    if not gears:
-        origin = scene.source.origin.partition(" (with ")[0]
-        raise UserError(
-            f"{origin}: no motor has a rigid gear other than 1, so that none could give way. Leave out "
-            f"the condition, or change to a scene with `gear` and without `stiffness` under a [[motor]]."
-        )
     names = motors_of(scene).names
     most = dict(zip(names, np.max(np.abs(by_names(control.bounds.torque, names)), axis=-1), strict=True))
     changes: dict[str, object] = {}
@@ -66,8 +53,3 @@ def giving_way(scene: Scene, twist: float) -> dict[str, object]:
         changes[f"motor.{name}.stiffness"] = float(abs(gear) * most[name] / twist)
         changes[f"motor.{name}.damping_time"] = GEAR_DAMPING_TIME
     return changes
-
-
-def conditions_of(scene: Scene) -> tuple[Condition, ...]:
-    """Return the conditions that a scene's controllers can be tried under."""
-    return tuple(case for case in CONDITIONS if not case.twist or rigid_gears(scene))

@@ -30,13 +30,7 @@ OUTPUTS: list[dict[str, object]] = [
 
 
 def plant_scene(scene: Scene, condition: Condition) -> Scene:
-    """Return the arm of a condition, finer than the scene's and integrated by another method.
-
-    Raises
-    ------
-    UserError
-        If its rigid gears are to give way, and it has none.
-    """
+    """Return the arm of a condition, finer than the scene's and integrated by another method."""
     changes: dict[str, object] = {
         "name": "plant",
         "output": OUTPUTS if scene.base.turns else _outputs(scene),
