@@ -33,7 +33,7 @@ from tmm_gen.closed_loop.pictures import comparison_picture
 from tmm_gen.control.bench import Bench
 from tmm_gen.control.condition import CONDITIONS
 from tmm_gen.control.controllers import BY_NAME, CONTROLLERS
-from tmm_gen.control.plant.gears import conditions_of
+from tmm_gen.control.plant.differing import conditions_of
 from tmm_gen.files import write_tree_whole, write_whole
 from tmm_gen.onboard.emit import EMITTED
 from tmm_gen.scene import load_scene
