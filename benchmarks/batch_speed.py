@@ -134,7 +134,7 @@ def main() -> None:
                 scene = load_scene(ROOT / f"{path}.toml").replace(**{"emit.parameters": "free", **changes})
                 rows.append(measured(scene, given.rounds, idle))
                 advance()
-    columns = [
+    columns: list[Column | str] = [
         "scene",
         Column("numbers", "side by side"),
         Column("ns", "ns per arm, link and step", ".2f"),

@@ -166,7 +166,7 @@ def main() -> None:
     given.out.mkdir(parents=True, exist_ok=True)
     everyone = contenders(scene, arm, place, given.out)
     rows = measure(everyone, tip_of(arm, angles[0]), given.rounds)
-    columns = [
+    columns: list[Column | str] = [
         "step",
         Column("ns", "ns", ".0f"),
         Column("fast_over_it", "favour speed over it", ".3f"),

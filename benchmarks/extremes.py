@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from extremes_of_chains.chains import WRONG, judge_all
@@ -28,7 +29,7 @@ from tmm_gen.scene.integrator import METHODS
 
 RATIOS = (1e-12, 1e-6, 1.0, 1e6, 1e12)
 STEPS = (1e-9, 1e-6, 1e-3, 0.1, 1.0, 10.0)
-KERNELS = tuple(
+KERNELS: tuple[dict[str, Any], ...] = tuple(
     {"real": real, "sweep": sweep, "unknown": unknown}
     for sweep, unknown in (("riccati", "acceleration"), ("riccati", "increment"), ("product", "acceleration"))
     for real in ("float64", "float32")

@@ -16,6 +16,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from extremes_of_arms.arms import Extreme, judge
@@ -25,7 +26,7 @@ from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
 
-ALONE: dict[str, tuple[float, ...]] = {
+ALONE: dict[str, tuple[Any, ...]] = {
     "links": (1, 2, 3, 5, 10, 20, 50, 60, 100, 200, 500, 1000),
     "stiffness": tuple(10.0**k for k in range(-5, 6)),
     "slenderness": (1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0),
@@ -98,7 +99,7 @@ def main() -> int:
                 {**asdict(extreme), **found, "cause": cause(verdict) if verdict.status == "refused" else ""}
             )
             advance(1)
-    columns = [
+    columns: list[Column | str] = [
         *("links", Column("stiffness", "EI", ".0e"), Column("slenderness", form=".0e")),
         *(Column("tip_ratio", "tip / arm", ".0e"), Column("step", "step / period", ".0e")),
         *(Column("revolutions", "rev/s", "g"), Column("status"), Column("error", form=".1e")),

@@ -14,6 +14,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from extremes_of_arms.rods import Rod, judge
@@ -22,7 +23,7 @@ from tmm_gen.cli.console import Column, progress, table
 from tmm_gen.csv_text import csv_text
 from tmm_gen.files import write_whole
 
-ALONE: dict[str, tuple[float, ...]] = {
+ALONE: dict[str, tuple[Any, ...]] = {
     "cells": (1, 2, 3, 5, 10, 20, 50, 100, 200, 500),
     "stiffness": tuple(10.0**k for k in range(-5, 6)),
     "across": (1e-2, 0.1, 1.0, 10.0, 100.0),
@@ -32,7 +33,7 @@ ALONE: dict[str, tuple[float, ...]] = {
     "step": (1e-5, 1e-4, 1e-3, 1e-2, 0.1),
     "revolutions": (0.1, 1.0, 10.0, 100.0),
 }
-_FEW: dict[str, tuple[float, ...]] = {
+_FEW: dict[str, tuple[Any, ...]] = {
     **ALONE,
     "cells": (1, 2, 3, 5, 20),
     "revolutions": (0.0, 0.0, 0.1, 1.0, 10.0, 100.0),
@@ -66,7 +67,7 @@ def main() -> int:
         for rod in tried:
             rows.append({**asdict(rod), **asdict(judge(rod, given.seconds))})
             advance(1)
-    columns = [
+    columns: list[Column | str] = [
         *("cells", Column("stiffness", "EI", ".0e"), Column("across", form=".0e")),
         *(Column("twist", "GJ / EI", ".0e"), Column("radius", form=".0e")),
         *(Column("payload", "payload / arm", ".0e"), Column("step", "step / period", ".0e")),

@@ -75,7 +75,7 @@ def main() -> None:
                 advance(0, doing=f"{unknown}, step {step:g} s")
                 rows.append(measure(unknown, step))
                 advance()
-    columns = [
+    columns: list[Column | str] = [
         "unknown",
         Column("step", "step (s)", "g"),
         Column("error_float32", "error of float", ".1e"),
@@ -83,8 +83,12 @@ def main() -> None:
     ]
     table(rows, columns, title=f"thesis10 in C, newmark, {DURATION:g} s, relative to the peak")
     long = [measure_long(unknown) for unknown in UNKNOWNS]
-    columns = ["unknown", Column("error_float32", "error of float", ".1e"), Column("growth", form="+.2f")]
-    table(long, columns, title=f"thesis10 in C, newmark, {MANY} steps, relative to the peak")
+    shown: list[Column | str] = [
+        "unknown",
+        Column("error_float32", "error of float", ".1e"),
+        Column("growth", form="+.2f"),
+    ]
+    table(long, shown, title=f"thesis10 in C, newmark, {MANY} steps, relative to the peak")
     write_whole(out / "float32.csv", csv_text(rows))
     print(f"wrote {out / 'float32.csv'}")
 

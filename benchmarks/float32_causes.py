@@ -84,7 +84,17 @@ def tip(singles: set[str]) -> np.ndarray:
     with tempfile.TemporaryDirectory() as folder:
         program = Path(folder, "run")
         Path(folder, "run.c").write_text(SOURCE)
-        words = ["gcc", "-std=c99", "-O2", "-ffp-contract=off", *types, f"{program}.c", "-o", program, "-lm"]
+        words = [
+            "gcc",
+            "-std=c99",
+            "-O2",
+            "-ffp-contract=off",
+            *types,
+            f"{program}.c",
+            "-o",
+            str(program),
+            "-lm",
+        ]
         subprocess.run(words, check=True)
         done = subprocess.run([program, str(STEPS)], check=True, capture_output=True)
     return np.frombuffer(done.stdout)
@@ -100,12 +110,20 @@ def main() -> None:
             parts = np.array_split((tip(singles) - right) / peak, WINDOWS)
             squares = np.array([np.sqrt(np.mean(part**2)) for part in parts])
             error = SingleError(
-                "tip", peak, float(max(np.max(np.abs(p)) for p in parts)), np.arange(WINDOWS) + 0.5, squares
+                "tip",
+                peak,
+                float(max(np.max(np.abs(p)) for p in parts)),
+                np.arange(WINDOWS, dtype=float) + 0.5,
+                squares,
             )
             last = float(np.sqrt(np.mean(squares[-2:] ** 2)))
             rows.append({"in float": name, "last": last, "growth": error.growth})
             advance()
-    columns = ["in float", Column("last", "RMS, last tenth", ".1e"), Column("growth", form="+.2f")]
+    columns: list[Column | str] = [
+        "in float",
+        Column("last", "RMS, last tenth", ".1e"),
+        Column("growth", form="+.2f"),
+    ]
     table(rows, columns, title=f"hundred, {STEPS} steps, relative to the peak")
 
 

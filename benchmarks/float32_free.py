@@ -52,7 +52,7 @@ def undamped_fall() -> list[dict[str, object]]:
     apart = np.hypot(*(found["float32"][axis] - found["float64"][axis] for axis in ("tip_x", "tip_y")))
     rows = []
     for real in REALS:
-        energy = sum(found[real][name] for name in ENERGIES)
+        energy = np.sum([found[real][name] for name in ENERGIES], axis=0)
         swing = float(np.max(found["float64"]["elastic_energy"]))
         rows.append(row("fall10, undamped", real, "energy", energy - energy[0], swing))
     return [*rows, row("fall10, undamped", "float32", "tip apart (m)", apart, 1.0)]
@@ -112,7 +112,7 @@ def over_the_top() -> list[dict[str, object]]:
         }
     ]
     for real in REALS:
-        energy = sum(found[real][name] for name in ENERGIES)
+        energy = np.sum([found[real][name] for name in ENERGIES], axis=0)
         swing = float(np.max(found["float64"]["kinetic_energy"]))
         rows.append(row("double pendulum", real, "energy", energy - energy[0], swing))
         mean = float(np.mean(found[real]["kinetic_energy"]) / swing)
@@ -183,7 +183,13 @@ def main() -> None:
             rows += case()
             advance()
     rows = [{"largest": None} | each for each in rows]
-    columns = ["case", "real", "what", Column("value", form="+.2g"), Column("largest", form=".2g")]
+    columns: list[Column | str] = [
+        "case",
+        "real",
+        "what",
+        Column("value", form="+.2g"),
+        Column("largest", form=".2g"),
+    ]
     table(rows, columns, title=f"free running, {MANY} steps; value: mean over the last tenth")
     write_whole(out / "float32_free.csv", csv_text(rows))
     print(f"wrote {out / 'float32_free.csv'}")

@@ -166,7 +166,7 @@ def main() -> None:
                 more, errors[name, load] = measure(name, load, signals, compensated)
                 rows += more
                 advance()
-    columns = [
+    columns: list[Column | str] = [
         "scene",
         "load",
         "compensated",

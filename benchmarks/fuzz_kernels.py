@@ -13,6 +13,7 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 from tmm_gen.c_language.names import macros
 from tmm_gen.emit.c import emit_kernel
@@ -191,7 +192,7 @@ def kinds() -> dict[str, Scene]:
     from tmm_gen.derive.integrators.registry import names
 
     found: dict[str, Scene] = {}
-    forms = (
+    forms: tuple[dict[str, Any], ...] = (
         {},
         {"emit.real": "float32"},
         {"emit.parameters": "bound"},
@@ -206,7 +207,7 @@ def kinds() -> dict[str, Scene]:
     for k, integrator in enumerate(names()):
         for stem in ("drivetrain", "arm2"):
             base = load_scene(ROOT / "scenes" / f"{stem}.toml")
-            changes = {"integrator": {"name": integrator, "step": base.integrator.step}}
+            changes: dict[str, Any] = {"integrator": {"name": integrator, "step": base.integrator.step}}
             changes |= {"emit.real": ("float64", "float32")[k % 2]}
             try:
                 found[f"{stem} {integrator} {changes['emit.real']}"] = base.replace(**changes)

@@ -156,7 +156,7 @@ def main() -> int:
     given = parser.parse_args()
     bench = Bench.of(load_scene(SCENE))
     trials = conditions(bench, range(given.seed, given.seed + given.seeds))
-    columns = [
+    columns: list[Column | str] = [
         "controller",
         "condition",
         Column("compiled", "as C"),

@@ -19,7 +19,8 @@ from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from mpc_space_speed import DERIVATIVES, PAGE, WALLED, Rows, measure
+from mpc_solvers.page import DERIVATIVES
+from mpc_space_speed import PAGE, WALLED, Rows, measure
 from support.marks import renewed
 
 from tmm_gen.cli.console import plain, progress

@@ -146,7 +146,7 @@ def main() -> None:
     parser.add_argument("--update", action="store_true", help=f"renew {PAGE.name}")
     given = parser.parse_args()
     rows = trials(Bench.of(load_scene(SCENE)))
-    columns = [
+    columns: list[Column | str] = [
         "controller",
         "condition",
         Column("compiled", "as C"),

@@ -74,7 +74,7 @@ def main() -> None:
     parser.add_argument("--update", action="store_true", help=f"renew {mpc_speed.PAGE.name}")
     given = parser.parse_args()
     rows = phases(given.links)
-    columns = [
+    columns: list[Column | str] = [
         "links",
         "controller",
         Column("whole_us", "whole (µs)", ".1f"),

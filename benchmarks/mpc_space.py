@@ -69,7 +69,8 @@ def goals(count: int, seed: int) -> list[Array]:
     Those that the motors cannot hold are drawn again.
     """
     random, scene = np.random.default_rng(seed), load_scene(SCENE)
-    problem, found = control_problem(scene), []
+    problem = control_problem(scene)
+    found: list[Array] = []
     walls = [Wall.of(scene, keep) for keep in problem.keeps]
     while len(found) < count:
         angles = np.array([round(float(random.uniform(*ends)), 3) for ends in RANGES.values()])
@@ -245,7 +246,7 @@ def _cell(rows: Rows) -> str:
         return "-"
     times = [float(str(row["arrived_s"])) for row in rows if row["arrived_s"] is not None]
     told = f"{np.median(times):.2f} / {max(times):.2f}" if times else "-"
-    through = np.max([row["through_mm"] for row in rows], axis=0)
+    through = np.max([np.asarray(row["through_mm"], float) for row in rows], axis=0)
     return f"{len(times)} of {len(rows)}: {told}; {through[0]:.1f} / {through[1]:.1f}"
 
 

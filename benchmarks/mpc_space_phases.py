@@ -118,7 +118,7 @@ def main() -> None:
     parser.add_argument("--update", action="store_true", help=f"renew {PAGE.name}")
     given = parser.parse_args()
     rows = phases(CELLS)
-    columns = [
+    columns: list[Column | str] = [
         "joints",
         "controller",
         Column("whole_us", "whole (µs)", ".0f"),

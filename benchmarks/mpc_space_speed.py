@@ -87,9 +87,9 @@ def derivatives(stage: Stage, seen: Record) -> float:
     given = [motion.start(seen.states[0], seen.last[0]), inputs, seen.disturbances[0].copy()]
     found = [np.zeros(function.nnz_out(k)) for k in range(function.n_out())]
     for k, values in enumerate(given):
-        buffer.set_arg(k, memoryview(values))
+        buffer.set_arg(k, values.data)
     for k, values in enumerate(found):
-        buffer.set_res(k, memoryview(values))
+        buffer.set_res(k, values.data)
     seconds = []
     for _ in range(50):
         begin = time.thread_time()
@@ -239,7 +239,7 @@ def main() -> None:
     given.out.mkdir(parents=True, exist_ok=True)
     results = given.out / "mpc_space_speed.json"
     rows = json.loads(results.read_text()) if given.read else measured(given, results)
-    columns = [
+    columns: list[Column | str] = [
         "joints",
         "walled",
         "solver",

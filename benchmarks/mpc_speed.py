@@ -259,7 +259,7 @@ def main() -> None:
         return
     results = given.out / "mpc_speed.json"
     found = json.loads(results.read_text()) if given.read else measured(given)
-    columns = [
+    columns: list[Column | str] = [
         "links",
         "solver",
         Column("median_us", "median (µs)", ".1f"),
@@ -272,7 +272,12 @@ def main() -> None:
     ]
     table(found["rows"], columns, title="one sample of MPC, one thread")
     table(found["growth"], ["solver", Column("exponent", "grows as links to the", ".2f")], title="growth")
-    shown = ["links", "solver", Column("cost", form=".8f"), Column("more", "more than converged", ".1e")]
+    shown: list[Column | str] = [
+        "links",
+        "solver",
+        Column("cost", form=".8f"),
+        Column("more", "more than converged", ".1e"),
+    ]
     table(found["costs"], shown, title="closed loop on the model")
     given.out.mkdir(parents=True, exist_ok=True)
     draw(found["rows"], given.out / "mpc_speed.png")

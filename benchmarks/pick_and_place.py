@@ -40,6 +40,7 @@ from tmm_gen.control.goals.target import rest_with
 from tmm_gen.control.goals.way import Way, shaped_way
 from tmm_gen.control.goals.window import Window
 from tmm_gen.control.laws.pd import PdController
+from tmm_gen.control.laws.rti import RealTimeIteration
 from tmm_gen.files import write_whole
 from tmm_gen.onboard.emit import emit_controller
 from tmm_gen.onboard.native import EmittedController
@@ -156,6 +157,7 @@ def loop(bench: Bench, controller: Controller, row: Row, objects: Sequence[float
     if row.told and isinstance(controller, PdController):
         controller.way = rigid_way(bench, plant, carried)
     elif row.told:
+        assert isinstance(controller, EmittedController | RealTimeIteration), row.controller
         controller = Told(controller, carried)
     ran = run_loop(
         controller,
@@ -213,9 +215,13 @@ def tuned(bench: Bench, row: Row, evaluations: int) -> tuple[Scene, float]:
         return found
 
     (wide, near), middle, each = DECADES, np.full(row.count, 0.5), evaluations // 3
-    for seed, about in enumerate(row.beginnings):
+
+    def widely(about: np.ndarray, seed: int) -> None:
         prices([middle], about, wide)
-        search_widely(lambda points, _, about=about: prices(points, about, wide), row.count, each - 1, seed)
+        search_widely(lambda points, _: prices(points, about, wide), row.count, each - 1, seed)
+
+    for seed, beginning in enumerate(row.beginnings):
+        widely(beginning, seed)
     about = np.array(best[1])
     search_nearby(lambda points, _: prices(points, about, near), [middle], evaluations - 2 * each, seed=0)
     return turned(bench.scene, row, np.array(best[1])), best[0]

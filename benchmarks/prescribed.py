@@ -79,15 +79,18 @@ class Sum:
 
     def at(self, time: ArrayLike) -> Array:
         """Return the sum of the values."""
-        return np.sum([part.at(time) for part in self.parts], axis=0)
+        total: Array = np.sum([part.at(time) for part in self.parts], axis=0)
+        return total
 
     def slope(self, time: ArrayLike) -> Array:
         """Return the sum of the rates."""
-        return np.sum([part.slope(time) for part in self.parts], axis=0)
+        total: Array = np.sum([part.slope(time) for part in self.parts], axis=0)
+        return total
 
     def curvature(self, time: ArrayLike) -> Array:
         """Return the sum of the accelerations."""
-        return np.sum([part.curvature(time) for part in self.parts], axis=0)
+        total: Array = np.sum([part.curvature(time) for part in self.parts], axis=0)
+        return total
 
 
 def plan(random: np.random.Generator) -> Sum:
@@ -122,7 +125,8 @@ def main() -> None:
         for _ in range(asked.plans):
             whole = plan(random)
             times = np.arange(0.0, UNTIL + 0.5 * ROWS, ROWS)
-            exact = exact_response(scene, {"turn": whole}, STEP * np.arange(steps + 1))
+            instants = STEP * np.arange(steps + 1, dtype=float)
+            exact = exact_response(scene, {"turn": whole}, instants)
             row: list[float] = []
             for signal in (whole, Table(times, whole.at(times))):
                 acting = {name: s.at for name, s in kernel_signals(scene, {"turn": signal}).items()}

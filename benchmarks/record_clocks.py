@@ -12,6 +12,7 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tmm_gen.calibration.calibrate import calibrate
 from tmm_gen.cli.console import progress, table
@@ -22,14 +23,16 @@ from tmm_gen.native.series import Series
 from tmm_gen.program.build import build_program
 from tmm_gen.scene import Scene, load_scene
 
+Array = NDArray[np.float64]
 KEY, TRUTH, STEP, UNTIL = "beam.bending_stiffness", 9.0, 2e-3, 1.0
 UNITS = {"s": 1.0, "ms": 1e3, "us": 1e6, "ns": 1e9, "minutes": 1.0 / 60.0}
 NEVER = 0.9
 """Share of the intervals of 95 % that must hold the truth at least."""
 
 
-def torque(time: np.ndarray) -> np.ndarray:
-    return np.interp(time, [0.0, 0.2, 0.4, 0.6, 0.8], [1.0, 1.0, -1.0, 1.0, 0.0])
+def torque(time: Array) -> Array:
+    wanted: Array = np.interp(time, [0.0, 0.2, 0.4, 0.6, 0.8], [1.0, 1.0, -1.0, 1.0, 0.0])
+    return wanted
 
 
 def recorded(scene: Scene) -> dict[str, Table]:
@@ -38,7 +41,7 @@ def recorded(scene: Scene) -> dict[str, Table]:
     kernel = compile_kernel(build_program(truth), truth)
     steps = round(UNTIL / STEP)
     outputs = Series(kernel, {"hub_torque": torque}, steps, STEP).run()
-    times = STEP * np.arange(steps + 1)
+    times = STEP * np.arange(steps + 1, dtype=float)
     found = {name: Table(times, outputs[name]) for name in ("hub", "tip_x", "tip_y")}
     return {**found, "hub_torque": Table(times, torque(times))}
 

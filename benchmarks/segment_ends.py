@@ -140,8 +140,9 @@ def frequencies(arm: Arm, angles: Array | None = None, welded: int | None = None
         held = np.delete(held, welded + 1, axis=1)
     mass = arm.coupling * np.cos(shape[:, None] - shape[None, :]) + arm.own_inertias
     stiffness, _ = arm.springs
-    squares = eigh(held.T @ stiffness @ held, held.T @ mass @ held, eigvals_only=True)
-    return np.sqrt(squares[turning : turning + MODES])
+    squares: Array = eigh(held.T @ stiffness @ held, held.T @ mass @ held, eigvals_only=True)
+    found: Array = np.sqrt(squares[turning : turning + MODES])
+    return found
 
 
 # -- exact beams ----------------------------------------------------------------------------------
@@ -182,7 +183,7 @@ def corner(omega: float) -> Array:
 def elbow(omega: float) -> Array:
     """Return the dynamic stiffness of two beams with a motor between them."""
     arm = BeamArm((INNER, OUTER), bodies=(Body(HOUSING, 0.0, 0.0), Body(TIP.mass, TIP.inertia)))
-    found = arm.stiffness(1j * omega)[0].real
+    found: Array = arm.stiffness(1j * omega)[0].real
     sides = np.ix_([1, 2], [1, 2])
     found[sides] -= omega**2 * ROTOR * np.array([[1.0, -1.0], [-1.0, 1.0]])
     return found
@@ -372,7 +373,7 @@ def main() -> None:
     parser.add_argument("--update", action="store_true", help="write the table into docs/modes.md")
     given = parser.parse_args()
     rows = [row for case in cases() for row in rows_of(case)]
-    columns = ["arm", "quantity"]
+    columns: list[Column | str] = ["arm", "quantity"]
     for rule in RULES:
         columns += [Column(f"{rule}_{n}", f"{rule} {n}", ".1e") for n in LINKS]
         columns.append(Column(f"{rule}_order", "order", ".2f"))

@@ -206,7 +206,7 @@ def main() -> None:
     for title, (name, scene) in arms().items():
         everyone, true = contenders(name, scene, place, given.out)
         rows += measure(title, scene.stations, everyone, true, given.rounds)
-    columns = [
+    columns: list[Column | str] = [
         "arm",
         "step",
         Column("ns_per_joint", "ns per joint", ".0f"),

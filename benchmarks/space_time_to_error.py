@@ -156,7 +156,7 @@ def measured(
     for item in arm.inputs:
         acting[item.joint - 1] += arm.joints[item.joint - 1].gear * torques[item.name]
     signals = {column: Constant(value) for column, value in torques.items()}
-    times = INTERVAL * np.arange(1, INTERVALS + 1)
+    times = INTERVAL * np.arange(1, INTERVALS + 1, dtype=float)
     frame = next(f for f in arm.frames if f.name == TIPS[name])
     tip = Tip(arm, frame, motion(arm, signals, times)[0])
     everyone: dict[str, Contender] = {}

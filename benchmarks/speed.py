@@ -119,7 +119,7 @@ def main() -> None:
             scene = load_scene(path)
             advance(0, doing=scene.name)
             rows.append(measure(scene, given.rounds, advance))
-    columns = [
+    columns: list[Column | str] = [
         "scene",
         "stations",
         "integrator",

@@ -57,7 +57,7 @@ def held(spectrum: Spectrum) -> sp.ImmutableMatrix:
 
 
 STARTS: dict[str, Callable[[Spectrum], sp.ImmutableMatrix]] = {
-    "polynomial": Spectrum.ahead.func,
+    "polynomial": Spectrum.__dict__["ahead"].func,
     "line": line,
     "held": held,
 }

@@ -45,7 +45,7 @@ BESIDE = "sdirk4"
 ALL_LINKS = (2, 5, 10, 20, 50, 100)
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "integrators.md"
-CHECKPOINTS = 0.1 * np.arange(1, 11)
+CHECKPOINTS = 0.1 * np.arange(1, 11, dtype=float)
 ROUNDS = 15
 MOST_STEPS = 40_000
 FLAGS = ("-O3", "-march=native", "-ffp-contract=fast")

@@ -45,7 +45,7 @@ def main() -> int:
         for name, bounds in TASKS:
             rows.append(compared(name, bounds, Path(folder) / f"{name}.toml"))
             advance()
-    columns = [
+    columns: list[Column | str] = [
         "scene",
         "configuration",
         Column("claimed_error", form=".3e"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -107,9 +108,9 @@ def _tips(jointed: JointArm, angles: Array) -> Array:
 
 def _off(places: Array, truth: Array) -> float:
     if places.shape != truth.shape or not np.isfinite(places).all():
-        return np.inf
+        return math.inf
     found = float(np.max(np.linalg.norm(places - truth, axis=1)))
-    return found if found < 1.0 else np.inf  # farther off than the arm is long: diverged
+    return found if found < 1.0 else math.inf  # farther off than the arm is long: diverged
 
 
 def _ours(name: str, links: int, truth: Array) -> Contender:
@@ -146,7 +147,8 @@ def _many(name: str, links: int, truth: Array) -> Contender:
     def seconds(setting: float) -> float:
         places, whole = simulated(int(setting), end)
         _, start = simulated(int(setting), 0.0)
-        return (whole - start) / places.shape[1]
+        each: float = (whole - start) / places.shape[1]
+        return each
 
     return Contender(f"tmm-gen, {name}", "many", COUNTS, error, seconds)
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TypeVar
 
 from hypothesis import strategies as st
 
 from faulty_loops.cases import LONGEST, fault
 
 Angles = tuple[float, ...]
+_T = TypeVar("_T")
 HEAVIEST = 1.5
 """What the arm really carries at most, of what its scene says."""
 _WRONG = (math.nan, math.inf, -math.inf, 1e30, -1e30, -1.0)
@@ -53,7 +55,7 @@ class ArmCase:
     troubles: tuple[Trouble, ...]
 
 
-def _perhaps(strategy: st.SearchStrategy[object]) -> st.SearchStrategy[object]:
+def _perhaps(strategy: st.SearchStrategy[_T]) -> st.SearchStrategy[_T | None]:
     return st.none() | strategy
 
 

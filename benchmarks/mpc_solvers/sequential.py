@@ -69,7 +69,8 @@ def horizon(stage: Stage, slopes: Any) -> Horizon:
         count * height,
         count * width + size,
     )
-    jacobian = scattered(blocks, slopes.sparsity_out(1), *zip(*places, strict=True), gaps)
+    at_rows, at_columns = zip(*places, strict=True)
+    jacobian = scattered(blocks, slopes.sparsity_out(1), at_rows, at_columns, gaps)
     names = ["x", "p"], ["f", "grad_f_x", "g", "jac_g_x"]
     found = [value, gradient(point, disturbance), ca.vec(rows - following), jacobian]
     multipliers = [ca.MX.sym("lam_f"), ca.MX.sym("lam_g", count * height)]
@@ -139,16 +140,18 @@ class Sequential:
         solver = ca.nlpsol("nmpc", "sqpmethod", made.problem, options)
         self._solver = compiled(solver, (*MORE[qpsol], *stage.linked)) if whole else solver
         # numbers stay where they are: converting them would take as long as solving
-        self._buffer, self._call = self._solver.buffer()
-        self._given, self._found = {}, {}
+        bound: tuple[Any, Any] = self._solver.buffer()
+        self._buffer, self._call = bound
+        self._given: dict[str, np.ndarray] = {}
+        self._found: dict[str, np.ndarray] = {}
         for name in ("x0", "p", "lbx", "ubx", "lbg", "ubg", "lam_x0", "lam_g0"):
             place = self._solver.index_in(name)
             self._given[name] = np.zeros(self._solver.numel_in(place))
-            self._buffer.set_arg(place, memoryview(self._given[name]))
+            self._buffer.set_arg(place, self._given[name].data)
         for name in ("x", "lam_x", "lam_g"):
             place = self._solver.index_out(name)
             self._found[name] = np.zeros(self._solver.numel_out(place))
-            self._buffer.set_res(place, memoryview(self._found[name]))
+            self._buffer.set_res(place, self._found[name].data)
         bounds = {"lbx": made.low, "ubx": made.high, "lbg": made.low_rows, "ubg": made.high_rows}
         for name, values in bounds.items():
             self._given[name][:] = values

@@ -67,7 +67,8 @@ def accelerations(arm: JointArm, angles: ca.SX, rates: ca.SX, torques: ca.SX, ar
         turn = turn + own
         dx, dy = outward[j]
         ax, ay = ax - turn * dy - square[j] * dx, ay + turn * dx - square[j] * dy
-    return ca.vertcat(*found)
+    together: ca.SX = ca.vertcat(*found)
+    return together
 
 
 def inputs_of(arm: JointArm, *, any_step: bool) -> tuple[ca.SX, ca.SX, ca.SX]:

@@ -16,7 +16,8 @@ def accelerations(
 ) -> ca.SX:
     """Return accelerations of the joints (rad/s^2): Featherstone's recursion in axes of the links."""
     joints = arm.joints
-    across, spin, spatial, bias, inertia, force = [], [], [], [], [], []
+    across, spatial, bias, inertia, force = [], [], [], [], []
+    spin: list[ca.SX] = []
     for k, joint in enumerate(joints):
         through = _across(joint, angles[k])
         axis = ca.SX(6, 1)

@@ -6,6 +6,7 @@ import contextlib
 import tempfile
 import time
 from functools import cached_property
+from typing import Any
 
 import casadi as ca
 import mujoco
@@ -72,7 +73,7 @@ class Cvodes:
 
     def _solver(self, tolerance: float) -> ca.Function:
         x = ca.SX.sym("x", self._size)
-        options = {
+        options: dict[str, Any] = {
             "reltol": tolerance,
             "abstol": tolerance,
             "jit": True,
@@ -105,10 +106,11 @@ class Scipy:
 
     def at_tolerance(self, tolerance: float) -> tuple[Array, float]:
         """Return angles of the joints at the times, (k, n), and the seconds that took."""
-        buffer, run = self._slope.buffer()
+        bound: tuple[Any, Any] = self._slope.buffer()
+        buffer, run = bound
         given, found = np.zeros(self._size), np.zeros(self._size)
-        buffer.set_arg(0, memoryview(given))
-        buffer.set_res(0, memoryview(found))
+        buffer.set_arg(0, given.data)
+        buffer.set_res(0, found.data)
 
         def slope(_: float, x: Array) -> Array:
             given[:] = x

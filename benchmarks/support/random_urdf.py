@@ -31,8 +31,10 @@ class _Drawing:
         """A frame axis, its opposite, or any vector of any length."""
         kind = self.rng.integers(3)
         if kind == 2:
-            return self.rng.normal(size=3) * 10.0 ** self.rng.uniform(-1, 1)
-        return np.eye(3)[self.rng.integers(3)] * (1.0 if kind == 0 else -1.0)
+            drawn: np.ndarray = self.rng.normal(size=3) * 10.0 ** self.rng.uniform(-1, 1)
+            return drawn
+        along: np.ndarray = np.eye(3)[self.rng.integers(3)] * (1.0 if kind == 0 else -1.0)
+        return along
 
     def link(self, name: str, weighs: bool) -> None:
         """A link with the inertia of some point masses, in turned axes; or without any."""

@@ -43,7 +43,7 @@ def random_arm(
     count = int(rng.integers(3, 13)) if joints is None else joints
     branches = bool(rng.random() < 0.5) if tree is None else tree
     hosts = _hosts(rng, count, branches)
-    made = []
+    made: list[Revolute] = []
     for number in range(1, count + 1):
         bare = number in hosts and bool(rng.random() < MASSLESS)
         joint = _joint(rng, number, hosts[number - 1], bare)
