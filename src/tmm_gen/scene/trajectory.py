@@ -94,6 +94,9 @@ class Trajectory(Table):
         scene's folder. Cubic in between.
     frame : str, optional
         Name of a part: the file then has columns ``<frame>_x`` and ``<frame>_y``, in space ``<frame>_z`` too, m.
+    orientation : bool
+        Whether the file says how that part is to stand, too: column ``<frame>_angle``, rad; in space ``<frame>_qw``,
+        ``<frame>_qx``, ``<frame>_qy`` and ``<frame>_qz``, a quaternion of any length.
     pose : tuple of PoseEntry
         From where the scene starts.
     """
@@ -101,6 +104,9 @@ class Trajectory(Table):
     file: str | None = Field(default=None, description="CSV file of the way", examples=['"way.csv"'])
     frame: str | None = Field(
         default=None, description="part whose positions the file has", examples=['"payload"']
+    )
+    orientation: bool = Field(
+        default=False, description="whether the file also says how that part is to stand", examples=["true"]
     )
     pose: tuple[PoseEntry, ...] = Field(default=(), description="poses")
 

@@ -89,7 +89,7 @@ def test_a_file_tells_joints_or_positions(small: Scene, tmp_path: Path) -> None:
     assert_allclose(found[1][4:], found[0][4:], atol=3e-3)  # cubic in between, of other curves
 
 
-def test_a_part_stands_as_told(small: Scene) -> None:
+def test_a_part_stands_as_told(small: Scene, tmp_path: Path) -> None:
     """With a third motor, at the end of the forearm: where the outer link rests by all joints, a turn on as well."""
     text = small.source.data
     wrist = {"name": "wrist", "on": "forearm", "rotor_inertia": 1e-6, "gear": 50}
@@ -116,6 +116,19 @@ def test_a_part_stands_as_told(small: Scene) -> None:
         course = course_of(turned, Bench.of(turned).problem)
         assert course is not None
         assert_allclose(course.angles[-1], there, atol=1e-8)
+    # the same by a file, whose angles are those of an arm that went all the way round
+    angle = angles[-1] - np.pi
+    way = [[0.0, *place, angle + np.pi], [0.2, *place, angle - np.pi], [0.4, *place, angle - 3.0 * np.pi]]
+    lines = [
+        "time,hand_x,hand_y,hand_angle",
+        *(",".join(f"{each!r}" for each in map(float, row)) for row in way),
+    ]
+    (tmp_path / "way.csv").write_text("\n".join(lines) + "\n")
+    told = {"file": str(tmp_path / "way.csv"), "frame": "hand", "orientation": True}
+    turned = scene.replace(**{"control.trajectory": told})
+    course = course_of(turned, Bench.of(turned).problem)
+    assert course is not None
+    assert_allclose(course.angles, np.tile(there, (len(course.angles), 1)), atol=1e-8)
 
 
 def test_a_file_that_begins_elsewhere_is_told_of(tmp_path: Path) -> None:

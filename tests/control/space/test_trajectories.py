@@ -141,7 +141,7 @@ torque = 60.0
 JOINTS = {"yaw": "z", "shoulder": "y", "elbow": "y", "roll": "x", "pitch": "y", "spin": "x"}
 
 
-def six_motors() -> Scene:
+def six_motors(more: str = "", file: str = "six.toml") -> Scene:
     """Return an arm with six motors and one beam that bends, whose end can stand in any way."""
     lines, on = [], "base"
     for name, axis in JOINTS.items():
@@ -156,7 +156,7 @@ def six_motors() -> Scene:
             else:
                 lines += ["[[link]]", "length = 0.3", "mass = 0.3", "inertia = [1e-3, 1e-3, 1e-3]"]
             lines += [f'name = "{on}"', f'on = "{name}"']
-    return parse_scene(WRIST.format(motors="\n".join(lines)), "six.toml")
+    return parse_scene(WRIST.format(motors="\n".join(lines)) + more, file)
 
 
 def test_a_part_is_brought_to_a_place_and_stands_there_as_told() -> None:
@@ -173,6 +173,56 @@ def test_a_part_is_brought_to_a_place_and_stands_there_as_told() -> None:
     course = course_of(with_poses(scene, pose), Bench.of(scene).problem)
     assert course is not None
     assert_allclose(course.angles[-1], there, atol=1e-8)
+
+
+def standing(tmp_path: Path, rows: list[list[float]]) -> Scene:
+    """Return the arm with six motors and a file that says where its tool is to be and how it is to stand."""
+    heading = ["time", *(f"tool_{each}" for each in ("x", "y", "z", "qw", "qx", "qy", "qz"))]
+    lines = [",".join(heading), *(",".join(f"{number!r}" for number in row) for row in rows)]
+    (tmp_path / "way.csv").write_text("\n".join(lines) + "\n")
+    told = '[control.trajectory]\nfile = "way.csv"\nframe = "tool"\norientation = true\n'
+    return six_motors(told, str(tmp_path / "six.toml"))
+
+
+def test_a_file_says_how_a_part_stands(tmp_path: Path) -> None:
+    """At each row where the arm rests by these joints; the signs of quaternions mean nothing, nor their lengths."""
+    scene, rows = six_motors(), []
+    begin, end = np.array([0.0, -0.6, 1.0, 0.0, 0.4, 0.0]), np.array([0.3, -0.4, 0.8, -0.3, 0.6, 0.3])
+    kernel = compile_kernel(build_program(scene), scene, flags=("-O1",))
+    kernel.prepare()
+    for number, share in enumerate(np.linspace(0.0, 1.0, 6)):
+        kernel.initialise(initial_angle=rest_with(scene, begin + share * (end - begin), "here").angles)
+        shown, sign = kernel.output(), (1.0, -3.0)[number % 2]
+        quaternion = [sign * shown[f"facing_{axis}"] for axis in "wxyz"]
+        rows.append([0.1 * number, *(shown[f"tool_{axis}"] for axis in "xyz"), *quaternion])
+    scene = standing(tmp_path, rows)
+    problem = Bench.of(scene).problem
+    course = course_of(scene, problem)
+    assert course is not None
+    each = round(0.1 / problem.sample_time)
+    for number, share in enumerate(np.linspace(0.0, 1.0, 6)):
+        assert_allclose(course.angles[each * number], begin + share * (end - begin), atol=1e-8)
+    # in between it is cubic, and nearly the same way
+    straight = begin + np.linspace(0.0, 1.0, len(course.angles))[:, None] * (end - begin)
+    assert_allclose(course.angles, straight, atol=3e-3)
+
+
+def test_a_quaternion_of_zeros_is_told_with_its_line(tmp_path: Path) -> None:
+    rows = [[0.0, 0.5, 0.0, 0.5, 1.0, 0.0, 0.0, 0.0], [0.1, 0.5, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0]]
+    with pytest.raises(UserError, match=r"way\.csv:3: the quaternion of zeros is no orientation\. Write"):
+        _ = Bench.of(standing(tmp_path, rows)).course
+
+
+@pytest.mark.parametrize(
+    ("told", "said"),
+    [
+        ('file = "way.csv"\norientation = true', r"orientation: is of a frame.*write `frame`"),
+        ("orientation = true\n[[control.trajectory.pose]]\nangles = 0.1\nduration = 1.0", r"is of a file"),
+    ],
+)
+def test_orientations_of_no_part_are_refused(words: str, told: str, said: str) -> None:
+    with pytest.raises(UserError, match=said):
+        parse_scene(f"{words}\n[control.trajectory]\n{told}\n", "reach.toml")
 
 
 @pytest.mark.parametrize(

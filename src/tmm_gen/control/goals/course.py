@@ -9,15 +9,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from tmm_gen.control.goals.file_way import file_way
 from tmm_gen.control.goals.reach import Somewhere, rest_with_frame
 from tmm_gen.control.goals.target import Target, require_within, rest_with
 from tmm_gen.control.task.problem import ControlProblem
 from tmm_gen.control.task.sample_count import require_countable
 from tmm_gen.control.task.where import where
 from tmm_gen.errors import UserError
-from tmm_gen.inputs.curve import through
-from tmm_gen.inputs.given import read_tables
-from tmm_gen.inputs.signals import Table
 from tmm_gen.scene import Scene
 from tmm_gen.scene.each import by_names
 from tmm_gen.scene.trajectory import Trajectory
@@ -131,26 +129,17 @@ def _quintics(scene: Scene, problem: ControlProblem, way: Trajectory) -> Iterato
 
 
 def _from_file(scene: Scene, problem: ControlProblem, way: Trajectory, path: Path) -> Course:
-    """Return the course that a CSV file tells, by joint angles or by positions of a part."""
-    axes = "xy" if scene.spatial is None else "xyz"
-    names = problem.motors.names if way.frame is None else tuple(f"{way.frame}_{axis}" for axis in axes)
-    tables = [
-        table
-        for table in read_tables(path, names, what=f"{where(scene, 'control.trajectory.file')}: ").values()
-        if isinstance(table, Table)
-    ]
-    last = float(tables[0].times[-1])
-    require_countable(scene, last, problem.sample_time)
-    instants = problem.sample_time * np.arange(int(np.ceil(last / problem.sample_time - 1e-9)) + 1)
-    told = np.column_stack([through(table).at(np.minimum(instants, last)) for table in tables])
+    """Return the course that a CSV file tells, by joint angles or by where a part is to be."""
+    read = file_way(scene, problem, way, path)
+    told = read.told
     if way.frame is None:
         for row in (told[0], told[-1]):
             _require_room(scene, problem, rest_with(scene, row, path.name), path.name)
         return Course(told)
     angles, before = np.zeros((len(told), problem.count)), problem.start
-    for row, position, now in zip(angles, told, instants, strict=True):
+    for row, there, now in zip(angles, read.places(), read.instants, strict=True):
         key = f"{path.name}, t = {now:g} s"
-        before = row[:] = _reached(scene, problem, Somewhere(way.frame, position), before, key).goal.hub
+        before = row[:] = _reached(scene, problem, there, before, key).goal.hub
     return Course(angles)
 
 

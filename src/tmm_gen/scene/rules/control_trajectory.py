@@ -114,6 +114,17 @@ def can_be_followed(
         yield Finding(
             (*_TRAJECTORY, "frame"), "is of a file, and there is none", "Write it in each pose.", way.frame
         )
+    if way.orientation and way.file is None:
+        yield Finding(
+            (*_TRAJECTORY, "orientation"), "is of a file, and there is none", "Write it in each pose.", True
+        )
+    elif way.orientation and way.frame is None:
+        yield Finding(
+            (*_TRAJECTORY, "orientation"),
+            "is of a frame, and there is none",
+            "Remove it, or write `frame`: the part whose positions and orientations the file has.",
+            True,
+        )
     kind = _kind(axes)
     yield from _known((*_TRAJECTORY, "frame"), way.frame, frames, kind)
     for index, pose in enumerate(way.pose):
