@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmm_gen.closed_loop.loop import Loop
-from tmm_gen.simulate.metrics import step_figures
+from tmm_gen.simulate.metrics import settled_from
 
 Array = NDArray[np.float64]
 
 BAND = 0.005
-"""Half-width of the band all tips have to stay in, relative to the longest of their ways."""
+"""Half-width of the band all tips have to stay in, relative to the longest of their ways; see :func:`scale_of`."""
 RESIDUAL_FROM = 1.0
 """Instant from which the tips' peak-to-peak motion counts as residual vibration, s."""
 
@@ -27,7 +27,7 @@ class Figures:
     settling : float or None
         From then on all tips stay within `BAND`, s; None if they do not.
     overshoot : float
-        By how much a tip passes its reference, relative to the longest way.
+        By how much a tip passes its reference, or one that is to stay leaves it, relative to the longest way.
     residual : float
         Peak to peak of a tip from `RESIDUAL_FROM` on, rad.
     offset : float
@@ -43,32 +43,32 @@ class Figures:
     fallbacks: int
 
 
+def scale_of(loop: Loop) -> float:
+    """Return what deviations of a loop are relative to, rad: the longest way of a tip.
+
+    Where the arm starts where it is to be, the farthest that one leaves.
+    """
+    away = np.abs(loop.tip - loop.goal)
+    return float(np.max(away[0]) or np.max(away))
+
+
 def loop_figures(loop: Loop, after: float = RESIDUAL_FROM) -> Figures:
     """Return the figures of a closed loop; see :class:`Figures`. Vibration counts from an instant, s."""
-    longest = float(np.max(np.abs(loop.goal - loop.tip[0])))
-    every = [
-        _figures(loop, tip, float(goal), longest, after)
-        for tip, goal in zip(loop.tip.T, loop.goal, strict=True)
-    ]
-    settling = [figures.settling for figures in every if figures.settling is not None]
+    scale, worst = scale_of(loop), np.max(np.abs(loop.tip - loop.goal), axis=1)
+    late = loop.tip[loop.time >= min(after, 0.5 * float(loop.time[-1])) - 1e-9]
+    offsets = np.mean(late[-max(1, len(late) // 5) :], axis=0) - loop.goal
     return Figures(
-        settling=max(settling) if len(settling) == len(every) else None,
-        overshoot=max(figures.overshoot for figures in every),
-        residual=max(figures.residual for figures in every),
-        offset=max((figures.offset for figures in every), key=abs),
+        settling=settled_from(loop.time, worst, BAND * scale),
+        overshoot=float(np.max(_passed(loop, BAND * scale))) / scale if scale else 0.0,
+        residual=float(np.max(np.ptp(late, axis=0))),
+        offset=float(max(offsets, key=abs)),
         fallbacks=loop.fallbacks,
     )
 
 
-def _figures(loop: Loop, tip: Array, goal: float, longest: float, after: float) -> Figures:
-    own = abs(goal - float(tip[0]))
-    figures = step_figures(loop.time, tip, goal, BAND * longest / own if own else BAND)
-    late = tip[loop.time >= min(after, 0.5 * float(loop.time[-1])) - 1e-9]
-    last = late[-max(1, len(late) // 5) :]
-    return Figures(
-        settling=figures.settling_time,
-        overshoot=figures.overshoot * own / longest if longest else 0.0,
-        residual=float(np.ptp(late)),
-        offset=float(np.mean(last)) - goal,
-        fallbacks=0,
-    )
+def _passed(loop: Loop, band: float) -> Array:
+    """Return how far each tip passes its reference, (m,), rad: one that is to stay does so to either side."""
+    way = loop.goal - loop.tip[0]
+    beyond = (loop.tip - loop.goal) * np.sign(way)
+    passed = np.where(np.abs(way) > band, beyond, np.abs(loop.tip - loop.goal))
+    return np.asarray(np.maximum(0.0, np.max(passed, axis=0)), float)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tmm_gen.closed_loop.figures import BAND, loop_figures
+from tmm_gen.closed_loop.figures import BAND, loop_figures, scale_of
 from tmm_gen.closed_loop.loop import Loop, run_loop
 from tmm_gen.closed_loop.space_plant import plant_of
 from tmm_gen.control.arm.arms import arm_of
@@ -93,9 +93,13 @@ def price(loop: Loop, aim: Aim) -> float:
     unlike the time itself that has no jumps. Its root is taken, since it varies more than the others.
     """
     off = np.max(np.abs(loop.tip - loop.goal)[loop.time >= aim.settling - 1e-9])
-    band = BAND * float(np.max(np.abs(loop.goal - loop.tip[0])))
+    band = BAND * scale_of(loop)
     figures = loop_figures(loop, aim.after)
-    found = max(math.sqrt(off / band), figures.overshoot / aim.overshoot, figures.residual / aim.residual)
+    found = max(
+        math.sqrt(off / band) if band else 0.0,
+        figures.overshoot / aim.overshoot,
+        figures.residual / aim.residual,
+    )
     return min(found, _ASTRAY) if math.isfinite(found) else _ASTRAY
 
 

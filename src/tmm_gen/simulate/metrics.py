@@ -67,15 +67,30 @@ def step_figures(
     top = int(np.argmax(ahead))
     overshoot = 0.0 if way == 0.0 else max(0.0, (float(y[top]) - final) / way)
     away = np.abs(y - final)
-    outside = np.flatnonzero(away > band * (abs(way) or np.max(away)))
-    settling: float | None
-    if len(outside) == 0:
-        settling = float(t[0])
-    elif outside[-1] + 1 < len(t):
-        settling = float(t[outside[-1] + 1])
-    else:
-        settling = None
+    settling = settled_from(t, away, band * (abs(way) or float(np.max(away))))
     return StepFigures(start, final, float(y[top]), float(t[top]), overshoot, settling)
+
+
+def settled_from(time: ArrayLike, away: ArrayLike, band: float) -> float | None:
+    """Return from when on a response stays within a band about its final value.
+
+    Parameters
+    ----------
+    time, away : array, (k,)
+        Samples, s, and how far it is from the final value there; not negative.
+    band : float
+        Half-width of the band, in the unit of the response.
+
+    Returns
+    -------
+    float or None
+        s; None if it is outside at the end.
+    """
+    t = np.asarray(time, float)
+    outside = np.flatnonzero(~(np.asarray(away, float) <= band))
+    if len(outside) == 0:
+        return float(t[0])
+    return float(t[outside[-1] + 1]) if outside[-1] + 1 < len(t) else None
 
 
 @dataclass(frozen=True)
