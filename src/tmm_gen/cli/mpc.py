@@ -186,9 +186,8 @@ def mpc(
         names = [kind.name for kind in kinds]
         for said in (*unstable_pd(bench, names), *swings_too_fast(bench, names)):
             click.echo(said, err=True)
-        if bench.course is not None:
-            for said in begins_elsewhere(loaded, bench.problem, bench.course):
-                click.echo(said, err=True)
+        if bench.course is not None and (begun := begins_elsewhere(loaded, bench.problem, bench.course)):
+            click.echo(begun, err=True)
         trials = _trials(loaded, bench, kinds, cases or [*conditions_of(loaded)], until, seed, compiled)
         show(loaded, trials, until, write_files(bench, trials, picture, animated), json_mode)
 

@@ -137,22 +137,24 @@ def test_a_file_that_begins_elsewhere_is_told_of(tmp_path: Path) -> None:
     (tmp_path / "way.csv").write_text("time,shoulder,elbow\n0,0.3,0\n0.5,0.4,-0.2\n1,0.5,-0.4\n")
     scene = parse_scene(text, str(tmp_path / "elbow.toml"))
 
-    def told(each: Scene) -> list[str]:
+    def told(each: Scene) -> str | None:
         bench = Bench.of(each)
         assert bench.course is not None
         return begins_elsewhere(each, bench.problem, bench.course)
 
-    (line,) = told(scene)
+    line = told(scene)
+    assert line is not None
     place = f"{tmp_path / 'elbow.toml'}:{text.count(chr(10))}: control.trajectory.file: 'way.csv'"
     assert line.startswith(
-        f"{place} begins with the joint of motor 'shoulder' at 0.3 rad, 0.3 rad from where the arm"
+        f"{place} begins elsewhere than the arm starts: 'shoulder' at 0.3 rad (0.3 rad away). The"
     )
     assert "`angles = { upper = 0.3, forearm = 0.3 }` under [initial]" in line
-    for off, lines in ((0.0, 0), (0.003, 0), (0.01, 1)):  # it moves by 0.004 rad in a sample
-        assert (
-            len(told(scene.replace(**{"initial.angles": {"upper": 0.3 + off, "forearm": 0.3 + off}})))
-            == lines
-        )
+    for off, silent in ((0.0, True), (0.003, True), (0.01, False)):  # it moves by 0.004 rad in a sample
+        moved = scene.replace(**{"initial.angles": {"upper": 0.3 + off, "forearm": 0.3 + off}})
+        assert (told(moved) is None) == silent
+    both = told(scene.replace(**{"initial.angles": {"upper": 0.1, "forearm": 0.7}}))
+    assert both is not None
+    assert "'shoulder' at 0.3 rad (0.2 rad away), 'elbow' at 0 rad (0.6 rad away). The" in both
 
 
 @pytest.mark.parametrize(

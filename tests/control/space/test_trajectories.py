@@ -76,9 +76,10 @@ def test_a_file_that_begins_elsewhere_is_told_of(tmp_path: Path, words: str) -> 
         bench = Bench.of(parse_scene(each, file))
         assert bench.course is not None
         told.append(begins_elsewhere(bench.scene, bench.problem, bench.course))
-    (line,), silent = told
-    assert silent == []
-    assert "motor 'lift' at -0.2 rad, 0.3 rad from where" in line
+    line, silent = told
+    assert silent is None
+    assert line is not None
+    assert "'lift' at -0.2 rad (0.3 rad away). The" in line
     assert "`angles = { yaw = 0, lift = -0.2 }` under [initial]" in line
 
 

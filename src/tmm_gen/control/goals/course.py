@@ -71,25 +71,32 @@ def course_of(scene: Scene, problem: ControlProblem) -> Course | None:
     return Course(np.vstack(list(_quintics(scene, problem, way))))
 
 
-def begins_elsewhere(scene: Scene, problem: ControlProblem, course: Course) -> list[str]:
-    """Return a line for each motor whose joint starts elsewhere than the file of a course says: the reference jumps.
+def begins_elsewhere(scene: Scene, problem: ControlProblem, course: Course) -> str | None:
+    """Return what is said of joints that start elsewhere than the file of a course says, if any: the reference jumps.
 
-    That is where it is off by more than the course moves in any sample, and an encoder tells.
+    They are those that are off by more than the course moves in any sample, and an encoder tells.
     """
     way = scene.control.trajectory if scene.control is not None else None
     if way is None or way.file is None:
-        return []
+        return None
     off = course.angles[0] - problem.start
     steps = np.max(np.abs(np.diff(course.angles, axis=0)), axis=0, initial=0.0)
     jumps = np.abs(off) > np.maximum(steps, 2.0 * np.pi / problem.encoders)
-    names = problem.motors.names
-    begin = ", ".join(f"{name} = {angle:.6g}" for name, angle in _initial(scene, problem, course.angles[0]))
-    return [
-        f"{where(scene, 'control.trajectory.file')}: '{way.file}' begins with the joint of motor '{names[motor]}' at "
-        f"{course.angles[0, motor]:.4g} rad, {abs(off[motor]):.3g} rad from where the arm starts: the reference jumps "
-        f"there at once. Set `angles = {{ {begin} }}` under [initial], or let the file begin where the arm starts."
+    if not np.any(jumps):
+        return None
+    said = [
+        f"'{problem.motors.names[motor]}' at {course.angles[0, motor]:.4g} rad ({abs(off[motor]):.3g} rad away)"
         for motor in np.flatnonzero(jumps)
     ]
+    # rounded to what no encoder tells, and no zero has a sign
+    begin = ", ".join(
+        f"{name} = {round(angle, 6) + 0.0:.7g}" for name, angle in _initial(scene, problem, course.angles[0])
+    )
+    return (
+        f"{where(scene, 'control.trajectory.file')}: '{way.file}' begins elsewhere than the arm starts: "
+        f"{', '.join(said)}. The reference jumps there at once. Set `angles = {{ {begin} }}` under [initial], or let "
+        "the file begin where the arm starts."
+    )
 
 
 def _initial(scene: Scene, problem: ControlProblem, hub: Array) -> Iterator[tuple[str, float]]:
