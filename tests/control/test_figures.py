@@ -63,8 +63,9 @@ def test_a_joint_that_stays_is_judged_in_the_band_of_those_that_move(away: float
     assert figures.overshoot == pytest.approx(float(np.max(off)), rel=1e-9)
 
 
-def test_where_nothing_is_to_move_it_is_judged_by_how_far_it_is_thrown() -> None:
-    loop = loop_of(disturbed(0.1), np.zeros_like(TIME), goal=(0.0, 0.0))
+@pytest.mark.parametrize("rounding", [0.0, 1e-11, -1e-11])
+def test_where_nothing_is_to_move_it_is_judged_by_how_far_it_is_thrown(rounding: float) -> None:
+    loop = loop_of(disturbed(0.1), np.zeros_like(TIME), goal=(rounding, 0.0))
     figures = loop_figures(loop)
     assert scale_of(loop) == pytest.approx(0.1)
     assert figures.overshoot == pytest.approx(1.0)

@@ -14,6 +14,8 @@ Array = NDArray[np.float64]
 
 BAND = 0.005
 """Half-width of the band all tips have to stay in, relative to the longest of their ways; see :func:`scale_of`."""
+_STILL = 1e-6
+"""Ways no longer than this are none, rad: encoders do not tell, and rests are found up to rounding."""
 RESIDUAL_FROM = 1.0
 """Instant from which the tips' peak-to-peak motion counts as residual vibration, s."""
 
@@ -49,7 +51,8 @@ def scale_of(loop: Loop) -> float:
     Where the arm starts where it is to be, the farthest that one leaves.
     """
     away = np.abs(loop.tip - loop.goal)
-    return float(np.max(away[0]) or np.max(away))
+    longest = float(np.max(away[0]))
+    return longest if longest > _STILL else float(np.max(away))
 
 
 def loop_figures(loop: Loop, after: float = RESIDUAL_FROM) -> Figures:
