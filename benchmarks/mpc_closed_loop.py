@@ -94,6 +94,7 @@ def conditions(bench: Bench, seeds: Sequence[int]) -> Rows:
             for case in conditions_of(bench.scene):
                 tried = seeds[:1] if kind.name == SLOW else seeds
                 figures = worst(bench, kind, case, tried, compiled=compiled)
+                assert figures.overshoot is not None
                 rows.append(
                     {
                         "controller": kind.name,

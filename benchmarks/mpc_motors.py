@@ -55,6 +55,7 @@ def trials(bench: Bench) -> Rows:
             for case in cases:
                 loop = run_loop(controller, Plant(bench.scene, bench.problem, case), DURATION)
                 found = loop_figures(loop)
+                assert found.overshoot is not None
                 seconds, feedback = times(controller, bench, loop, case)
                 rows.append(
                     {

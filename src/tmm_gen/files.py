@@ -202,8 +202,8 @@ def _about(path: Path, error: OSError) -> OSError:
 def _is_printed_to(status: os.stat_result) -> bool:
     """Whether a file is what standard output or standard error goes to."""
     for stream in (sys.__stdout__, sys.__stderr__):
-        with suppress(OSError, ValueError, AttributeError):
-            if os.path.samestat(os.fstat(stream.fileno()), status):  # type: ignore[union-attr]
+        with suppress(OSError, ValueError):  # it may be closed, or no file
+            if stream is not None and os.path.samestat(os.fstat(stream.fileno()), status):
                 return True
     return False
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -269,3 +270,35 @@ def test_the_command_writes_what_was_there_where_nothing_better_is_found(
     for name in ("pd", "lqr"):
         assert f"{name}: 0.000 with the numbers the scene had, which stay: nothing better was found" in shown
     assert out.read_text() == scene.read_text()
+
+
+@pytest.mark.parametrize(
+    ("name", "there", "elsewhere"),
+    [
+        ("swing", "reference = 0.0", "reference = 0.5"),
+        (
+            "elbow",
+            "reference = { shoulder = 0.0, elbow = 0.0 }",
+            "reference = { shoulder = 0.2, elbow = 0.0 }",
+        ),
+    ],
+)
+def test_an_arm_with_nowhere_to_go_is_not_tuned(
+    tmm_gen: Call, tmp_path: Path, repository: Path, name: str, there: str, elsewhere: str
+) -> None:
+    """Prices are relative to the way; a reference somewhere else is all it takes. Its loops are shown nevertheless."""
+    text = (repository / "scenes" / f"{name}.toml").read_text()
+    scene = tmp_path / "still.toml"
+    scene.write_text(re.sub(r"(?m)^reference = (\{[^}]*\}|[^#\n]*)", there, text))
+    refused = tmm_gen("mpc", scene, "--tune", "lqr", "--evaluations", "20")
+    assert refused.returncode == 2
+    assert "still.toml" in refused.stderr
+    assert "control.reference is where the arm starts" in refused.stderr
+    shown = tmm_gen(
+        "mpc", scene, "--controller", "lqr", "--condition", "nominal", "--until", "0.2", "--json", "--plot"
+    )
+    assert shown.returncode == 0, shown.stderr
+    (row,) = json.loads(shown.stdout)["rows"]
+    assert (row["overshoot_percent"], row["settling_s"]) == (None, None)
+    scene.write_text(scene.read_text().replace(there, elsewhere))
+    assert tmm_gen("mpc", scene, "--tune", "lqr", "--evaluations", "20").returncode == 0

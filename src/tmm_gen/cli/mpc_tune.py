@@ -67,16 +67,23 @@ def tuned(
         If there is no tunable of that name, or the file has no line for a number that is to be found.
     """
     from tmm_gen.closed_loop.chosen import chosen
+    from tmm_gen.closed_loop.figures import STILL
     from tmm_gen.closed_loop.pricing import OneByOne, side_by_side
     from tmm_gen.closed_loop.search import require_cma
     from tmm_gen.closed_loop.tunables import tunables_of
     from tmm_gen.closed_loop.tuning import tune
     from tmm_gen.control.controllers import BY_NAME, require_solvers
+    from tmm_gen.control.task.where import where
 
     if bench.follows:
         raise UserError(
             f"--tune: {file}: tunes for a reference that is reached once, and this arm follows control.trajectory. "
             "Take the table out while you tune."
+        )
+    if max(abs(bench.problem.reference - bench.problem.start)) <= STILL:
+        raise UserError(
+            f"--tune: {where(bench.scene, 'control.reference')} is where the arm starts, and a tuning is judged by the "
+            "way there. Set another `reference`, or a start elsewhere under [initial]."
         )
     known = {tunable.name: tunable for tunable in tunables_of(bench)}
     wanted = [*known.values()] if EVERYTHING in names else chosen("--tune", names, known)

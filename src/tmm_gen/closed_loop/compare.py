@@ -58,12 +58,12 @@ class Trial:
     def row(self) -> dict[str, object]:
         """Return what a table shows: times in s, angles in mrad, microseconds; None where it never settles.
 
-        Along a trajectory, mm that the end of the arm is off instead.
+        Overshoot is None where no tip has anywhere to go. Along a trajectory, mm that the arm's end is off instead.
         """
         loop, figures, tracking = self.loop, self.figures, self.tracking
         reached: dict[str, object] = {
             "settling_s": figures.settling,
-            "overshoot_percent": 100.0 * figures.overshoot,
+            "overshoot_percent": None if figures.overshoot is None else 100.0 * figures.overshoot,
             "residual_mrad": 1e3 * figures.residual,
             "offset_mrad": 1e3 * figures.offset,
         }
@@ -166,9 +166,10 @@ def worst(
         loop = run_loop(controller, plant_of(bench.scene, bench.problem, condition, seed), duration)
         every.append(loop_figures(loop))
     settling = [figures.settling for figures in every if figures.settling is not None]
+    overshoot = [figures.overshoot for figures in every if figures.overshoot is not None]
     return Figures(
         settling=max(settling) if len(settling) == len(every) else None,
-        overshoot=max(figures.overshoot for figures in every),
+        overshoot=max(overshoot, default=None),
         residual=max(figures.residual for figures in every),
         offset=max((figures.offset for figures in every), key=abs),
         fallbacks=max(figures.fallbacks for figures in every),

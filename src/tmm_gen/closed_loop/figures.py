@@ -13,8 +13,8 @@ from tmm_gen.simulate.metrics import settled_from
 Array = NDArray[np.float64]
 
 BAND = 0.005
-"""Half-width of the band all tips have to stay in, relative to the longest of their ways; see :func:`scale_of`."""
-_STILL = 1e-6
+"""Half-width of the band all tips have to stay in, relative to the longest of their ways; see :func:`way_of`."""
+STILL = 1e-6
 """Ways no longer than this are none, rad: encoders do not tell, and rests are found up to rounding."""
 RESIDUAL_FROM = 1.0
 """Instant from which the tips' peak-to-peak motion counts as residual vibration, s."""
@@ -27,9 +27,10 @@ class Figures:
     Parameters
     ----------
     settling : float or None
-        From then on all tips stay within `BAND`, s; None if they do not.
-    overshoot : float
-        By how much a tip passes its reference, or one that is to stay leaves it, relative to the longest way.
+        From then on all tips stay within `BAND`, s; None if they do not, or if none has anywhere to go.
+    overshoot : float or None
+        By how much a tip passes its reference, or one that is to stay leaves it, relative to the longest way; None if
+        none has anywhere to go.
     residual : float
         Peak to peak of a tip from `RESIDUAL_FROM` on, rad.
     offset : float
@@ -39,30 +40,26 @@ class Figures:
     """
 
     settling: float | None
-    overshoot: float
+    overshoot: float | None
     residual: float
     offset: float
     fallbacks: int
 
 
-def scale_of(loop: Loop) -> float:
-    """Return what deviations of a loop are relative to, rad: the longest way of a tip.
-
-    Where the arm starts where it is to be, the farthest that one leaves.
-    """
-    away = np.abs(loop.tip - loop.goal)
-    longest = float(np.max(away[0]))
-    return longest if longest > _STILL else float(np.max(away))
+def way_of(loop: Loop) -> float:
+    """Return the longest way of a tip, rad, which deviations are relative to; 0 if all start where they are to be."""
+    longest = float(np.max(np.abs(loop.goal - loop.tip[0])))
+    return longest if longest > STILL else 0.0
 
 
 def loop_figures(loop: Loop, after: float = RESIDUAL_FROM) -> Figures:
     """Return the figures of a closed loop; see :class:`Figures`. Vibration counts from an instant, s."""
-    scale, worst = scale_of(loop), np.max(np.abs(loop.tip - loop.goal), axis=1)
+    way, worst = way_of(loop), np.max(np.abs(loop.tip - loop.goal), axis=1)
     late = loop.tip[loop.time >= min(after, 0.5 * float(loop.time[-1])) - 1e-9]
     offsets = np.mean(late[-max(1, len(late) // 5) :], axis=0) - loop.goal
     return Figures(
-        settling=settled_from(loop.time, worst, BAND * scale),
-        overshoot=float(np.max(_passed(loop, BAND * scale))) / scale if scale else 0.0,
+        settling=settled_from(loop.time, worst, BAND * way) if way else None,
+        overshoot=float(np.max(_passed(loop, BAND * way))) / way if way else None,
         residual=float(np.max(np.ptp(late, axis=0))),
         offset=float(max(offsets, key=abs)),
         fallbacks=loop.fallbacks,

@@ -112,7 +112,8 @@ def told(scene: Scene, key: str) -> Number | dict[str, Number] | None:
     value: Any = scene
     for part in key.split("."):
         value = getattr(value, part)
-    return value  # type: ignore[no-any-return]
+    found: Number | dict[str, Number] | None = value
+    return found
 
 
 def number(scene: Scene, key: str) -> Number | dict[str, Number]:

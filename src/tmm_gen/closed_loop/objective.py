@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tmm_gen.closed_loop.figures import BAND, loop_figures, scale_of
+from tmm_gen.closed_loop.figures import BAND, loop_figures, way_of
 from tmm_gen.closed_loop.loop import Loop, run_loop
 from tmm_gen.closed_loop.space_plant import plant_of
 from tmm_gen.control.arm.arms import arm_of
@@ -93,13 +93,10 @@ def price(loop: Loop, aim: Aim) -> float:
     unlike the time itself that has no jumps. Its root is taken, since it varies more than the others.
     """
     off = np.max(np.abs(loop.tip - loop.goal)[loop.time >= aim.settling - 1e-9])
-    band = BAND * scale_of(loop)
     figures = loop_figures(loop, aim.after)
-    found = max(
-        math.sqrt(off / band) if band else 0.0,
-        figures.overshoot / aim.overshoot,
-        figures.residual / aim.residual,
-    )
+    assert figures.overshoot is not None, "an arm that has nowhere to go is not tuned"
+    late = math.sqrt(off / (BAND * way_of(loop)))
+    found = max(late, figures.overshoot / aim.overshoot, figures.residual / aim.residual)
     return min(found, _ASTRAY) if math.isfinite(found) else _ASTRAY
 
 

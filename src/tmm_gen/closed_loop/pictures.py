@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tmm_gen.closed_loop.compare import Trial
-from tmm_gen.closed_loop.figures import BAND, scale_of
+from tmm_gen.closed_loop.figures import BAND, way_of
 from tmm_gen.closed_loop.loop import Loop
 from tmm_gen.control.task.problem import ControlProblem
 from tmm_gen.style import FAINT, PALETTE, figure, picture, style
@@ -72,21 +72,19 @@ def comparison_figure(trials: Sequence[Trial], problem: ControlProblem) -> Figur
 
 def _span(loops: Sequence[Loop], k: int) -> tuple[float, float]:
     """Return what a motor's panel shows: its tip's way with some room, not all of a loop that goes astray."""
-    loop, scale = loops[0], scale_of(loops[0])
+    loop, way = loops[0], way_of(loops[0])
     ends = np.array([loop.tip[0, k], loop.goal[k]])
-    seen = np.concatenate([each.tip[:, k] for each in loops if np.all(np.isfinite(each.tip[:, k]))] or [ends])
-    low, high = float(ends.min()), float(ends.max())
-    room = 2.0 * BAND * scale
-    low, high = (
-        min(low - room, max(float(seen.min()) - room, low - 0.25 * scale)),
-        max(high + room, min(float(seen.max()) + room, high + 0.25 * scale)),
-    )
-    return (low, high) if high > low else (low - 1.0, high + 1.0)
+    seen = np.concatenate([ends, *(each.tip[:, k] for each in loops)])
+    seen = seen[np.isfinite(seen)]
+    if way:
+        seen = np.clip(seen, ends.min() - 0.25 * way, ends.max() + 0.25 * way)
+    room = 2.0 * BAND * way or 0.05 * float(np.ptp(seen)) or 1.0
+    return float(seen.min()) - room, float(seen.max()) + room
 
 
 def _targets(upper: Axes, lower: Axes, problem: ControlProblem, loop: Loop, k: int) -> None:
     """Draw a motor's reference with its band, or what its joint is to follow, and the bounds of its torque."""
-    width, goal = BAND * scale_of(loop), loop.goal[k]
+    width, goal = BAND * way_of(loop), loop.goal[k]
     if loop.wanted is None:
         band = f"target, within {100.0 * BAND:g} % of the way"
         upper.axhspan(goal - width, goal + width, color=FAINT, alpha=0.25, linewidth=0, label=band)

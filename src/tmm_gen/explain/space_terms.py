@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from tmm_gen.explain.terms import Term
 from tmm_gen.program.space.gears import shafts_of
@@ -92,9 +93,9 @@ def _moving(arm: SpatialArm) -> int:
     return sum(not joint.given for joint in arm.joints)
 
 
-def _with_arm(scene: Scene, **update: object) -> Scene:
+def _with_arm(scene: Scene, **update: Any) -> Scene:
     assert scene.spatial is not None
-    return replace(scene, spatial=replace(scene.spatial, **update))  # type: ignore[arg-type]
+    return replace(scene, spatial=replace(scene.spatial, **update))
 
 
 def _with_model(scene: Scene, **update: object) -> Scene:

@@ -165,7 +165,7 @@ class NativeBatch:
         ValueError
             If a name is unknown, a shape does not fit, or a number is out of its range.
         """
-        step = float(self.program.step.default) if step is None else float(step)  # type: ignore[arg-type]
+        step = float(self.program.step.default) if step is None else float(step)  # type: ignore[arg-type]  # a number
         if not (0.0 <= duration < np.inf and 0.0 < step < np.inf):
             raise ValueError(f"duration and step must be times, not {duration!r} and {step!r}")
         every = whole("every", every)

@@ -88,7 +88,7 @@ def write(instance: ctypes.Structure, struct: Struct, values: Mapping[str, Value
     variables = {v.name: v for v in struct.variables}
     for name, value in values.items():
         if name == COUNTER and struct.counter:
-            setattr(instance, COUNTER, int(value))  # type: ignore[arg-type]
+            setattr(instance, COUNTER, int(value))  # type: ignore[arg-type]  # raises what int() does
         elif name in variables:
             setattr(instance, name, element_values(variables[name], value, type(getattr(instance, name))))
         else:

@@ -166,7 +166,7 @@ class ModelBased(ABC):
     def _look(self) -> None:  # noqa: B027  most prepare nothing
         """Prepare what can be for an estimate that is still to be corrected."""
 
-    def _turned(self) -> None:  # noqa: B027
+    def _turned(self) -> None:  # noqa: B027  most have prepared nothing
         """Take note that the estimate is elsewhere than what was prepared is for."""
 
     @abstractmethod
