@@ -99,7 +99,11 @@ def run_loop(
     """
     clock = time.thread_time if timed else float  # float() is zero
     controller.reset()
-    controller.command(plant.measured())  # caches warm up, so that the first sample is timed like the others
+    # caches warm up, so that the first samples are timed like the others; from the second on there is one before
+    measured = plant.measured()
+    for _ in range(2):
+        controller.prepare()
+        controller.command(measured)
     controller.reset()
     samples = max(1, round(duration / plant.problem.sample_time))
     seen, count = [plant.angles()[None]], plant.problem.count
